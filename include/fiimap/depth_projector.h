@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "fiimap/mapper_config.h"
+#include "fiimap/range_data.h"
+
+namespace fiimap {
+
+/// Pinhole camera without distortion, pixels.
+struct PinholeIntrinsics {
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+
+  /// Finite, with positive focal lengths.
+  bool valid() const;
+};
+
+/// View of a depth image in native byte order; does not own its pixels.
+struct DepthImage {
+  enum class Format {
+    kUint16,   ///< units of depth_scale (REP 118: millimetres); 0 and 65535 are invalid
+    kFloat32,  ///< metres; NaN and values <= 0 are invalid, +inf is "farther than the sensor sees"
+  };
+
+  const void* data = nullptr;
+  Format format = Format::kUint16;
+  int width = 0;
+  int height = 0;
+  std::size_t row_bytes = 0;  ///< distance between rows, >= width * bytes per pixel
+};
+
+/// Back-projects depth images (eq. 3) on a grid of pixels (eq. 4-5).
+/// Not thread-safe (keeps scratch memory).
+class DepthProjector {
+ public:
+  explicit DepthProjector(const MapperConfig& config) : config_(config) {}
+
+  /// Fills `scan` anew with the image's rays.
+  /// \param T_W_C camera (optical frame: z forward, x right, y down) to world.
+  ReadingCount project(const DepthImage& image, const PinholeIntrinsics& intrinsics,
+                       const Eigen::Isometry3d& T_W_C, RangeData* scan);
+
+  /// Step along u (x) and v (y): pixel_step, or for 0 the paper's eq. 5, (f / d_max) r, at least 1.
+  Eigen::Vector2i pixelStep(const PinholeIntrinsics& intrinsics) const;
+
+ private:
+  template <typename Pixel>
+  ReadingCount projectPixels(const DepthImage& image, const Eigen::Vector2i& step, RangeData* scan);
+  void addReading(float depth, const Eigen::Vector3f& ray, RangeData* scan,
+                  ReadingCount* count) const;
+
+  MapperConfig config_;
+  std::vector<Eigen::Vector3f> ray_of_u_;  // direction in world axes at unit depth: sum of the two
+  std::vector<Eigen::Vector3f> ray_of_v_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "fiimap/change_set.h"
+#include "fiimap/depth_projector.h"
+#include "fiimap/inflater.h"
+#include "fiimap/log_odds.h"
+#include "fiimap/mapper_config.h"
+#include "fiimap/point_projector.h"
+#include "fiimap/range_data.h"
+#include "fiimap/ray_caster.h"
+#include "fiimap/scan_integrator.h"
+#include "fiimap/scan_mask.h"
+#include "fiimap/sliding_grid.h"
+#include "fiimap/snapshot.h"
+
+namespace fiimap {
+
+/// Where a scan was taken.
+struct ScanPose {
+  /// Sensor to world. Cameras: optical frame.
+  Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();
+  /// Position of the vehicle in the world, metres: the window and the update range follow it.
+  Eigen::Vector3d vehicle_W = Eigen::Vector3d::Zero();
+  /// Of the scan, nanoseconds.
+  std::int64_t stamp_ns = 0;
+};
+
+/// Wall-clock time of each stage of one update, milliseconds. The snapshot is made on demand, so its
+/// time is filled in by who asks for it.
+struct StageTimes {
+  double project = 0.0, slide = 0.0, raycast = 0.0, fuse = 0.0, inflate = 0.0, snapshot = 0.0;
+  double total() const { return project + slide + raycast + fuse + inflate + snapshot; }
+};
+
+/// What one scan did.
+struct ScanReport {
+  ReadingCount readings;
+  RayCount rays;
+  std::size_t raise = 0;
+  std::size_t lower = 0;
+  std::size_t forgotten = 0;
+  StageTimes times_ms;
+
+  std::size_t changeScore() const { return raise + lower; }
+};
+
+/// The map: scans in, snapshots out.
+/// Not thread-safe: one thread owns it; other threads read the snapshots.
+class Mapper {
+ public:
+  /// \throws std::invalid_argument when the configuration is not valid.
+  explicit Mapper(const MapperConfig& config);
+
+  /// Integrates one scan.
+  /// \throws std::invalid_argument, with the map unchanged, when the pose is not finite or not in
+  /// the range of voxel indices, or the image or its intrinsics are not valid.
+  ScanReport integrate(const DepthImage& image, const PinholeIntrinsics& intrinsics,
+                       const ScanPose& pose);
+  ScanReport integrate(const PointScan& points, const ScanPose& pose);
+
+  /// An immutable view of the map as it is now, with the stamp of the newest scan.
+  std::shared_ptr<const Snapshot> snapshot();
+
+  /// Forgets everything.
+  void reset();
+
+  /// Changes the inflation from now on; the inflated layer is exact again on return.
+  /// \throws std::invalid_argument when the configuration with these values is not valid.
+  void setInflation(double radius, ElementShape shape);
+
+  const MapperConfig& config() const { return config_; }
+  const LogOdds& logOdds() const { return log_odds_; }
+  /// For tests, evaluation and statistics.
+  const SlidingGrid& grid() const { return grid_; }
+  std::size_t memoryBytes() const;
+
+ private:
+  ScanReport integrateScan(const ScanPose& pose, ScanReport report);
+  void follow(const VoxelIndex& vehicle);
+
+  MapperConfig config_;
+  VoxelLattice lattice_;
+  LogOdds log_odds_;
+  SlidingGrid grid_;
+  DepthProjector depth_projector_;
+  PointProjector point_projector_;
+  RayCaster ray_caster_;
+  ScanIntegrator integrator_;
+  std::unique_ptr<Inflater> inflater_;
+
+  RangeData scan_;
+  ScanMask mask_;
+  ChangeSet changes_;
+  bool window_placed_ = false;
+  std::int64_t stamp_ns_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fiimap/structuring_element.h"
+
+namespace fiimap {
+
+/// What a reading without a usable distance says about its ray.
+enum class ReadingPolicy {
+  kIgnore,  ///< nothing
+  kFree,    ///< the ray is free up to the maximum range
+};
+
+enum class MapMode {
+  kSliding,  ///< the window follows the vehicle
+  kFixed,    ///< the window stays where map_center_* puts it
+};
+
+enum class InflationMethod {
+  kIncremental,  ///< dirty columns of bit planes
+  kBfs,          ///< the paper's Algorithms 1 and 2, made exact
+  kBatch,        ///< clear and re-dilate everything
+};
+
+/// Every setting of the map, in one place with its default. Names are the parameter names of the
+/// nodelet and of fiimap_eval; units, ranges and meanings: mapper_parameters.cpp and
+/// config/default.yaml.
+struct MapperConfig {
+  double resolution = 0.1;
+  MapMode map_mode = MapMode::kSliding;
+  double map_size_x = 100.0;
+  double map_size_y = 100.0;
+  double map_size_z = 6.0;
+  double map_center_x = 0.0;
+  double map_center_y = 0.0;
+  double map_center_z = 0.0;
+  double slide_distance = 0.4;
+  double local_update_range_x = 16.0;
+  double local_update_range_y = 16.0;
+  double local_update_range_z = 6.0;
+
+  double depth_scale = 0.001;
+  double min_depth = 0.3;
+  double max_depth = 8.0;
+  int pixel_step = 2;
+  int border_margin = 2;
+  ReadingPolicy invalid_depth = ReadingPolicy::kIgnore;
+  ReadingPolicy infinite_depth = ReadingPolicy::kFree;
+  ReadingPolicy beyond_max_depth = ReadingPolicy::kFree;
+
+  double min_ray_length = 0.3;
+  double max_ray_length = 8.0;
+  double ray_end_cut = 1.5;
+
+  double p_hit = 0.70;
+  double p_miss = 0.35;
+  double p_min = 0.12;
+  double p_max = 0.97;
+  double p_occ = 0.80;
+
+  double inflation_radius = 0.2;
+  ElementShape inflation_shape = ElementShape::kBall;
+  InflationMethod inflation_method = InflationMethod::kIncremental;
+  int bfs_connectivity = 6;
+
+  bool virtual_walls = false;
+  double virtual_floor = -0.1;
+  double virtual_ceiling = 3.0;
+
+  Eigen::Vector3d mapSize() const { return {map_size_x, map_size_y, map_size_z}; }
+  Eigen::Vector3d mapCenter() const { return {map_center_x, map_center_y, map_center_z}; }
+  Eigen::Vector3d localUpdateRange() const {
+    return {local_update_range_x, local_update_range_y, local_update_range_z};
+  }
+  StructuringElement structuringElement() const {
+    return {inflation_shape, inflation_radius, resolution};
+  }
+
+  /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+  void validate() const;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fiimap/mapper_config.h"
+
+namespace fiimap {
+
+/// Parameter values as text by name, from wherever they come: ROS, YAML or a command line.
+using ParameterMap = std::map<std::string, std::string>;
+
+/// One setting of a configuration: its description and typed access to its field through text.
+struct Parameter {
+  std::string name;
+  std::string unit;     ///< "m", "voxels", ... or "" where there is none
+  std::string allowed;  ///< human-readable range or list of values
+  std::string meaning;
+  std::function<std::string()> get;
+  /// Parses and range-checks; throws std::invalid_argument naming parameter, value and range.
+  std::function<void(const std::string&)> set;
+};
+
+/// Builders of Parameters bound to a field, which must outlive them.
+Parameter numberParameter(const std::string& name, double* field, double min, double max,
+                          const std::string& unit, const std::string& meaning);
+Parameter integerParameter(const std::string& name, int* field, int min, int max,
+                           const std::string& unit, const std::string& meaning);
+Parameter flagParameter(const std::string& name, bool* field, const std::string& meaning);
+Parameter textParameter(const std::string& name, std::string* field, const std::string& meaning);
+
+/// \param names the text of each enumerator, in the order of their values 0, 1, 2, ...
+template <typename Enum>
+Parameter choiceParameter(const std::string& name, Enum* field,
+                          const std::vector<std::string>& names, const std::string& meaning);
+
+/// All parameters of a MapperConfig, bound to `config`, in the order of config/default.yaml.
+std::vector<Parameter> mapperParameters(MapperConfig* config);
+
+/// Sets every parameter that `values` holds.
+/// \return the names in `values` that no parameter has, so that the caller can warn or refuse.
+/// \throws std::invalid_argument on a value of the wrong type or out of range.
+std::vector<std::string> applyParameters(const ParameterMap& values,
+                                         const std::vector<Parameter>& parameters);
+
+// Implementation of the template.
+namespace internal {
+std::size_t indexOfChoice(const std::string& name, const std::string& value,
+                          const std::vector<std::string>& names);
+std::string joinChoices(const std::vector<std::string>& names);
+}  // namespace internal
+
+template <typename Enum>
+Parameter choiceParameter(const std::string& name, Enum* field,
+                          const std::vector<std::string>& names, const std::string& meaning) {
+  return {name,
+          "",
+          internal::joinChoices(names),
+          meaning,
+          [field, names] { return names[static_cast<std::size_t>(*field)]; },
+          [name, field, names](const std::string& value) {
+            *field = static_cast<Enum>(internal::indexOfChoice(name, value, names));
+          }};
+}
+
+}  // namespace fiimap

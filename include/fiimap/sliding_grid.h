@@ -1,0 +1,193 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fiimap/bit_column.h"
+#include "fiimap/voxel_lattice.h"
+
+namespace fiimap {
+
+/// Bit layers of the grid: one bit per voxel each.
+enum class Plane { kKnown, kOccupied, kInflated };
+constexpr int kPlaneCount = 3;
+
+/// Columns are grouped into square tiles of this many columns a side.
+constexpr int kTileShift = 5;
+constexpr int kTileSide = 1 << kTileShift;
+constexpr int kTileColumns = kTileSide * kTileSide;
+
+/// Where the bits of a voxel column are: a ring of 64-bit words, a power of two of them, in which the
+/// voxel at height z has the bit z mod (64 words), whatever the window. So nothing moves when the
+/// window slides, and addressing is a mask (2 ns; a modulo by an arbitrary height takes 18 ns).
+class ColumnLayout {
+ public:
+  /// \param height largest number of voxels that a column has to hold at once, >= 1.
+  explicit ColumnLayout(int height) : words_(1) {
+    while (bits() < height) words_ *= 2;
+  }
+
+  int words() const { return words_; }
+  int bits() const { return words_ * kWordBits; }
+  /// Bit of height z within the column.
+  int bitOf(int z) const { return z & (bits() - 1); }
+  /// Height of a bit, given the lowest height that the column holds now.
+  int heightOf(int bit, int min_z) const { return min_z + bitOf(bit - min_z); }
+
+ private:
+  int words_;
+};
+
+/// Index of column (x, y) within its tile.
+inline int columnInTile(int x, int y) {
+  return ((x & (kTileSide - 1)) << kTileShift) | (y & (kTileSide - 1));
+}
+
+/// The bit planes of 32 x 32 voxel columns. Within a plane, columns are row-major (x, then y) and
+/// each column has ColumnLayout::words() words. Tiles are shared with snapshots and copied before
+/// the first change after one (copy on write).
+struct Tile {
+  explicit Tile(const ColumnLayout& layout)
+      : words(static_cast<std::size_t>(kPlaneCount) * kTileColumns * layout.words(), 0) {}
+
+  std::uint64_t* column(Plane plane, int x, int y, const ColumnLayout& layout) {
+    return words.data() + offsetOf(plane, x, y, layout);
+  }
+  const std::uint64_t* column(Plane plane, int x, int y, const ColumnLayout& layout) const {
+    return words.data() + offsetOf(plane, x, y, layout);
+  }
+
+  static std::size_t offsetOf(Plane plane, int x, int y, const ColumnLayout& layout) {
+    return (static_cast<std::size_t>(plane) * kTileColumns + columnInTile(x, y)) * layout.words();
+  }
+
+  std::vector<std::uint64_t> words;
+  /// Snapshot generation in which the grid made this copy; older tiles are frozen.
+  std::uint64_t generation = 0;
+};
+
+/// Tiles by position: a power-of-two ring on x and y, large enough that no two tiles of a window
+/// share a slot, so that addressing is a shift and a mask (eq. 2, wrapped circularly).
+class TileRing {
+ public:
+  /// \param columns window size along x and y.
+  TileRing(int columns_x, int columns_y);
+
+  int slots() const { return (mask_x_ + 1) * (mask_y_ + 1); }
+  /// Slot of the tile that holds column (x, y).
+  int slotOf(int x, int y) const {
+    return ((x >> kTileShift) & mask_x_) * (mask_y_ + 1) + ((y >> kTileShift) & mask_y_);
+  }
+
+ private:
+  int mask_x_;
+  int mask_y_;
+};
+
+/// The sliding occupancy grid (Section 3.1): three bit planes and the log-odds of every voxel of a
+/// window that follows the vehicle. Voxels keep their place in memory when the window slides; what
+/// leaves is forgotten, what enters is unknown. Memory is taken tile by tile where something has
+/// been seen, and reused.
+///
+/// Invariant: bits of voxels outside the window are zero in every plane.
+/// Not thread-safe: one thread owns the grid; other threads read snapshots.
+class SlidingGrid {
+ public:
+  /// \param size window size in voxels, each >= 1.
+  explicit SlidingGrid(const VoxelIndex& size);
+
+  const VoxelBox& window() const { return window_; }
+  const ColumnLayout& layout() const { return layout_; }
+  const TileRing& ring() const { return ring_; }
+
+  /// Moves the window so that its lowest corner is `min`. Voxels left behind are forgotten; those
+  /// of them that were occupied are appended to `forgotten`. The inflated plane keeps its bits
+  /// inside the window and is exact again after the next Inflater::update with these voxels.
+  void moveTo(const VoxelIndex& min, std::vector<VoxelIndex>* forgotten);
+  /// Forgets everything; the window stays.
+  void clear();
+  /// Clears one plane in the whole window.
+  void clearPlane(Plane plane);
+
+  bool test(Plane plane, const VoxelIndex& v) const;
+  /// Sets one bit. Voxels outside the window are ignored.
+  void set(Plane plane, const VoxelIndex& v, bool value);
+
+  /// Words of a column, layout().words() of them; all zero where nothing was ever written.
+  const std::uint64_t* column(Plane plane, int x, int y) const;
+  /// Replaces a column's words. Writing what is there already costs no copy.
+  /// \param words bits outside the window must be zero.
+  void writeColumn(Plane plane, int x, int y, const std::uint64_t* words);
+  /// Log-odds of a column, one byte per bit of the ring; meaningful where the voxel is known.
+  /// Allocates; the pointer holds until the window moves.
+  std::int8_t* logOdds(int x, int y);
+
+  /// Ring mask of the heights of [min_z, max_z) that lie in the window, layout().words() words.
+  void heightMask(int min_z, int max_z, std::uint64_t* words) const;
+
+  /// Tiles in which something was written, by slot.
+  const std::vector<int>& liveSlots() const { return live_; }
+  /// Lowest column of the tile in a live slot (x, y; z is 0).
+  const VoxelIndex& tileOrigin(int slot) const { return slots_[slot].origin; }
+  /// Calls visit(VoxelIndex) for every set voxel of a plane, tile by tile, in a fixed order.
+  template <typename Visitor>
+  void forEach(Plane plane, Visitor&& visit) const;
+
+  /// Shares the tiles as they are now, by slot (null where nothing was written). Later changes of
+  /// the grid do not show in them.
+  std::vector<std::shared_ptr<const Tile>> shareTiles();
+
+  /// Number of set voxels of a plane.
+  std::int64_t count(Plane plane) const { return counts_[static_cast<int>(plane)]; }
+  /// Memory held now, bytes.
+  std::size_t memoryBytes() const;
+  /// Memory held when every voxel of the window has been seen, bytes.
+  std::size_t worstCaseMemoryBytes() const;
+
+ private:
+  struct Slot {
+    std::shared_ptr<Tile> tile;
+    std::unique_ptr<std::int8_t[]> log_odds;
+    VoxelIndex origin = VoxelIndex::Zero();
+    std::size_t live_position = 0;
+  };
+
+  Slot& liveSlot(int x, int y);
+  Tile& writableTile(Slot& slot);
+  void drop(int slot);
+  void forgetTile(int slot, std::vector<VoxelIndex>* forgotten);
+  void forgetColumns(int slot, const VoxelBox& kept, std::vector<VoxelIndex>* forgotten);
+  void forgetColumn(int x, int y, const std::uint64_t* kept_heights,
+                    std::vector<VoxelIndex>* forgotten);
+  std::size_t tileBytes() const;
+
+  VoxelIndex size_;
+  VoxelBox window_;
+  ColumnLayout layout_;
+  TileRing ring_;
+  std::vector<Slot> slots_;
+  std::vector<int> live_;
+  std::vector<std::unique_ptr<std::int8_t[]>> spare_log_odds_;
+  std::vector<std::uint64_t> zero_column_;
+  std::vector<std::uint64_t> scratch_column_;
+  std::int64_t counts_[kPlaneCount] = {0, 0, 0};
+  std::uint64_t generation_ = 0;
+};
+
+template <typename Visitor>
+void SlidingGrid::forEach(Plane plane, Visitor&& visit) const {
+  for (const int slot : live_) {
+    const VoxelIndex& origin = tileOrigin(slot);
+    for (int i = 0; i < kTileColumns; ++i) {
+      const int x = origin.x() + (i >> kTileShift);
+      const int y = origin.y() + (i & (kTileSide - 1));
+      forEachBit(column(plane, x, y), layout_.words(), [&](int bit) {
+        visit(VoxelIndex(x, y, layout_.heightOf(bit, window_.min.z())));
+      });
+    }
+  }
+}
+
+}  // namespace fiimap

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "fiimap/sliding_grid.h"
+#include "fiimap/structuring_element.h"
+#include "fiimap/voxel_lattice.h"
+
+namespace fiimap {
+
+/// What is known of a voxel. Outside: not in the window. What counts as an obstacle is the caller's
+/// choice.
+enum class Occupancy : std::uint8_t { kUnknown, kFree, kOccupied, kOutside };
+
+/// The same for the inflated layer; a voxel that is inflated is not reported as unknown or free.
+enum class Inflation : std::uint8_t { kUnknown, kFree, kInflated, kOutside };
+
+/// Heights beyond which queries see an obstacle whatever was measured, metres in the map frame.
+struct VirtualWalls {
+  double floor = -std::numeric_limits<double>::infinity();
+  double ceiling = std::numeric_limits<double>::infinity();
+};
+
+/// An immutable view of the whole map at one moment: window, cells, stamp and sequence number belong
+/// together. Reading takes no lock, from any number of threads; it stays valid as long as someone
+/// holds it, even after the mapper is gone.
+class Snapshot {
+ public:
+  struct Info {
+    std::int64_t stamp_ns = 0;   ///< of the newest scan in it
+    std::uint64_t sequence = 0;  ///< 1, 2, 3, ... of one mapper; a reset does not restart it
+    double resolution = 0.0;     ///< m
+    VoxelBox window;
+    ElementShape inflation_shape = ElementShape::kBall;
+    double inflation_radius = 0.0;  ///< m
+    VirtualWalls walls;
+  };
+
+  /// Shares the tiles of the grid as they are now.
+  Snapshot(SlidingGrid* grid, const Info& info);
+
+  const Info& info() const { return info_; }
+  const VoxelLattice& lattice() const { return lattice_; }
+  const VoxelBox& window() const { return info_.window; }
+
+  /// State of a voxel or of the voxel at a point (metres, map frame). A voxel whose centre, or a
+  /// point which, lies beyond a virtual wall is occupied and inflated, if it is in the window.
+  /// Points that are not finite are outside.
+  Occupancy occupancy(const VoxelIndex& v) const;
+  Occupancy occupancy(const Eigen::Vector3d& point_W) const;
+  Inflation inflation(const VoxelIndex& v) const;
+  Inflation inflation(const Eigen::Vector3d& point_W) const;
+
+  /// Measured voxels (virtual walls add none) of a plane inside a box, sorted by x, then y.
+  std::vector<VoxelIndex> voxels(Plane plane, const VoxelBox& box) const;
+  /// Number of set voxels of a plane in the whole window.
+  std::int64_t count(Plane plane) const { return counts_[static_cast<int>(plane)]; }
+
+ private:
+  bool test(Plane plane, const VoxelIndex& v) const;
+  /// Words of a column, or null where nothing was ever seen.
+  const std::uint64_t* column(Plane plane, int x, int y) const;
+  bool beyondWalls(double z) const { return z < info_.walls.floor || z > info_.walls.ceiling; }
+  Occupancy measuredOccupancy(const VoxelIndex& v) const;
+  Inflation measuredInflation(const VoxelIndex& v) const;
+
+  Info info_;
+  VoxelLattice lattice_;
+  ColumnLayout layout_;
+  TileRing ring_;
+  std::vector<std::shared_ptr<const Tile>> tiles_;
+  std::int64_t counts_[kPlaneCount];
+};
+
+}  // namespace fiimap

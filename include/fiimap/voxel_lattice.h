@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace fiimap {
+
+/// Integer coordinates of a voxel of the world: voxel v covers [v, v + 1) * resolution on each axis.
+/// Global and unbounded (negative too); it does not depend on where the window is.
+using VoxelIndex = Eigen::Vector3i;
+
+/// Half-open box of voxels [min, max).
+struct VoxelBox {
+  VoxelIndex min = VoxelIndex::Zero();
+  VoxelIndex max = VoxelIndex::Zero();
+
+  VoxelIndex size() const { return max - min; }
+  bool empty() const { return (max.array() <= min.array()).any(); }
+  std::int64_t volume() const;
+  bool contains(const VoxelIndex& v) const {
+    return (v.array() >= min.array()).all() && (v.array() < max.array()).all();
+  }
+  bool containsColumn(int x, int y) const {
+    return x >= min.x() && x < max.x() && y >= min.y() && y < max.y();
+  }
+  VoxelBox intersection(const VoxelBox& other) const {
+    return {min.cwiseMax(other.min), max.cwiseMin(other.max)};
+  }
+  bool operator==(const VoxelBox& other) const { return min == other.min && max == other.max; }
+  bool operator!=(const VoxelBox& other) const { return !(*this == other); }
+};
+
+/// The only place where metres become voxels and back (eq. 1 of the paper, with a floored division
+/// so that it holds for negative coordinates). Immutable, safe to share between threads.
+class VoxelLattice {
+ public:
+  /// \param resolution edge length of a voxel in metres, > 0.
+  explicit VoxelLattice(double resolution) : resolution_(resolution) {}
+
+  double resolution() const { return resolution_; }
+
+  /// Voxel that holds the point (metres). Requires canIndex(point_W).
+  VoxelIndex indexOf(const Eigen::Vector3d& point_W) const {
+    return (point_W / resolution_).array().floor().cast<int>();
+  }
+  /// False for points that are not finite or lie beyond the range of voxel indices.
+  bool canIndex(const Eigen::Vector3d& point_W) const;
+
+  /// Centre of a voxel in metres.
+  Eigen::Vector3d centerOf(const VoxelIndex& v) const {
+    return (v.cast<double>().array() + 0.5) * resolution_;
+  }
+  /// Number of voxels needed to cover an extent in metres, rounded to the nearest voxel, at least 1.
+  VoxelIndex sizeOf(const Eigen::Vector3d& extent) const;
+
+  /// Box of the given size (voxels) whose middle voxel is `center`.
+  static VoxelBox boxAround(const VoxelIndex& center, const VoxelIndex& size) {
+    const VoxelIndex min = center - size / 2;
+    return {min, min + size};
+  }
+
+ private:
+  double resolution_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,170 @@
+#include "incremental_inflater.h"
+
+#include <algorithm>
+
+namespace fiimap {
+namespace {
+
+constexpr int kNotDirty = -1;
+
+/// Bits first..last (inclusive) of a tile row.
+std::uint32_t rowBits(int first, int last) {
+  return (~std::uint32_t{0} << first) & (~std::uint32_t{0} >> (kTileSide - 1 - last));
+}
+
+}  // namespace
+
+IncrementalInflater::IncrementalInflater(const StructuringElement& element)
+    : reach_(element.reach()), runs_by_half_height_(element.reach() + 1) {
+  for (int dx = -reach_; dx <= reach_; ++dx) {
+    int widest = 0;
+    for (int dy = -reach_; dy <= reach_; ++dy) {
+      const int half_height = element.halfHeight(dx, dy);
+      if (half_height < 0) continue;
+      widest = std::max(widest, dy);
+      std::vector<Run>& runs = runs_by_half_height_[half_height];
+      const bool continues = !runs.empty() && runs.back().dx == dx && runs.back().dy_last == dy - 1;
+      if (continues) {
+        runs.back().dy_last = dy;
+      } else {
+        runs.push_back({dx, dy, dy});
+      }
+    }
+    footprint_.push_back(widest);
+  }
+}
+
+void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
+  if (changes.empty()) return;
+  words_ = grid->layout().words();
+  dirty_slots_.resize(grid->ring().slots(), kNotDirty);
+  for (const auto* list : {&changes.lower, &changes.raise, &changes.forgotten}) {
+    for (const VoxelIndex& v : *list) markAround(v, *grid);
+  }
+
+  const VoxelBox& window = grid->window();
+  not_top_.resize(words_);
+  not_bottom_.resize(words_);
+  grid->heightMask(window.min.z(), window.max.z() - 1, not_top_.data());
+  grid->heightMask(window.min.z() + 1, window.max.z(), not_bottom_.data());
+  for (const DirtyTile& tile : dirty_tiles_) {
+    recompute(tile, grid);
+    dirty_slots_[grid->ring().slotOf(tile.origin.x(), tile.origin.y())] = kNotDirty;
+  }
+  dirty_tiles_.clear();
+}
+
+void IncrementalInflater::markAround(const VoxelIndex& changed, const SlidingGrid& grid) {
+  const VoxelBox& window = grid.window();
+  for (int dx = -reach_; dx <= reach_; ++dx) {
+    const int x = changed.x() + dx;
+    if (x < window.min.x() || x >= window.max.x()) continue;
+    const int half_width = footprint_[dx + reach_];
+    markColumns(x, std::max(changed.y() - half_width, window.min.y()),
+                std::min(changed.y() + half_width, window.max.y() - 1), grid);
+  }
+}
+
+void IncrementalInflater::markColumns(int x, int y_first, int y_last, const SlidingGrid& grid) {
+  for (int y = y_first; y <= y_last;) {
+    const int tile_y = y & ~(kTileSide - 1);
+    const int last = std::min(y_last, tile_y + kTileSide - 1);
+    int& index = dirty_slots_[grid.ring().slotOf(x, y)];
+    if (index == kNotDirty) {
+      index = static_cast<int>(dirty_tiles_.size());
+      dirty_tiles_.push_back({{x & ~(kTileSide - 1), tile_y, 0}, {}});
+    }
+    dirty_tiles_[index].rows[x & (kTileSide - 1)] |= rowBits(y - tile_y, last - tile_y);
+    y = last + 1;
+  }
+}
+
+void IncrementalInflater::recompute(const DirtyTile& tile, SlidingGrid* grid) {
+  std::uint32_t any_row = 0;
+  int first_row = kTileSide, last_row = -1;
+  for (int row = 0; row < kTileSide; ++row) {
+    if (tile.rows[row] == 0) continue;
+    any_row |= tile.rows[row];
+    first_row = std::min(first_row, row);
+    last_row = row;
+  }
+  const int y_first = tile.origin.y() + __builtin_ctz(any_row);
+  const int y_last = tile.origin.y() + kTileSide - 1 - __builtin_clz(any_row);
+  gather({{tile.origin.x() + first_row - reach_, y_first - reach_, 0},
+          {tile.origin.x() + last_row + reach_ + 1, y_last + reach_ + 1, 1}},
+         *grid);
+
+  for (int row = first_row; row <= last_row; ++row) {
+    const std::uint64_t bits = tile.rows[row];
+    forEachRun(&bits, 1, [&](int first, int last) {
+      recomputeRow(tile.origin.x() + row, tile.origin.y() + first, tile.origin.y() + last, grid);
+    });
+  }
+}
+
+/// Copies occupied columns side by side, so that the inner loop runs over plain arrays and no tile
+/// border or window face has to be handled in it: columns outside the window are zero.
+void IncrementalInflater::gather(const VoxelBox& columns, const SlidingGrid& grid) {
+  gathered_ = columns;
+  const int side_y = columns.size().y();
+  occupied_.resize(static_cast<std::size_t>(columns.size().x()) * side_y * words_);
+  const VoxelBox& window = grid.window();
+  std::uint64_t* target = occupied_.data();
+  for (int x = columns.min.x(); x < columns.max.x(); ++x) {
+    for (int y = columns.min.y(); y < columns.max.y(); ++y, target += words_) {
+      if (window.containsColumn(x, y)) {
+        std::copy_n(grid.column(Plane::kOccupied, x, y), words_, target);
+      } else {
+        std::fill_n(target, words_, 0);
+      }
+    }
+  }
+}
+
+void IncrementalInflater::recomputeRow(int x, int y_first, int y_last, SlidingGrid* grid) {
+  const int count = (y_last - y_first + 1) * words_;
+  const int side_y = gathered_.size().y();
+  inflated_.assign(count, 0);
+  for (int half_height = reach_; half_height >= 0; --half_height) {
+    for (const Run& run : runs_by_half_height_[half_height]) {
+      for (int dy = run.dy_first; dy <= run.dy_last; ++dy) {
+        const int row = x + run.dx - gathered_.min.x();
+        const std::uint64_t* source =
+            occupied_.data() +
+            (static_cast<std::size_t>(row) * side_y + y_first + dy - gathered_.min.y()) * words_;
+        for (int i = 0; i < count; ++i) inflated_[i] |= source[i];
+      }
+    }
+    if (half_height == 0) break;
+    for (int i = 0; i < count; i += words_) dilateAlongZ(inflated_.data() + i);
+  }
+  for (int y = y_first; y <= y_last; ++y) {
+    grid->writeColumn(Plane::kInflated, x, y, inflated_.data() + (y - y_first) * words_);
+  }
+}
+
+/// Dilates a column by one voxel up and down. Bits that would leave the window are taken away before
+/// the shift, because in the ring they would come back at its other end.
+void IncrementalInflater::dilateAlongZ(std::uint64_t* column) const {
+  constexpr int kCarry = kWordBits - 1;
+  if (words_ == 1) {
+    const std::uint64_t up = *column & not_top_[0];
+    const std::uint64_t down = *column & not_bottom_[0];
+    *column |= (up << 1) | (up >> kCarry) | (down >> 1) | (down << kCarry);
+    return;
+  }
+  const int last = words_ - 1;
+  const std::uint64_t first_word = column[0];
+  std::uint64_t below = column[last];
+  for (int w = 0; w < words_; ++w) {
+    const std::uint64_t word = column[w];
+    const int below_index = w == 0 ? last : w - 1;
+    const int above_index = w == last ? 0 : w + 1;
+    const std::uint64_t above = w == last ? first_word : column[w + 1];
+    column[w] |= ((word & not_top_[w]) << 1) | ((below & not_top_[below_index]) >> kCarry) |
+                 ((word & not_bottom_[w]) >> 1) | ((above & not_bottom_[above_index]) << kCarry);
+    below = word;
+  }
+}
+
+}  // namespace fiimap

@@ -1,0 +1,29 @@
+#include "fiimap/inflater.h"
+
+#include "batch_inflater.h"
+#include "bfs_inflater.h"
+#include "incremental_inflater.h"
+
+namespace fiimap {
+
+std::unique_ptr<Inflater> makeInflater(const MapperConfig& config) {
+  const StructuringElement element = config.structuringElement();
+  switch (config.inflation_method) {
+    case InflationMethod::kIncremental:
+      return std::make_unique<IncrementalInflater>(element);
+    case InflationMethod::kBfs:
+      return std::make_unique<BfsInflater>(element, config.bfs_connectivity);
+    case InflationMethod::kBatch:
+      return std::make_unique<BatchInflater>(element);
+  }
+  return nullptr;
+}
+
+void rebuildInflation(Inflater* inflater, SlidingGrid* grid) {
+  grid->clearPlane(Plane::kInflated);
+  ChangeSet everything;
+  grid->forEach(Plane::kOccupied, [&](const VoxelIndex& v) { everything.lower.push_back(v); });
+  inflater->update(everything, grid);
+}
+
+}  // namespace fiimap

@@ -1,0 +1,160 @@
+#include "fiimap/mapper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace fiimap {
+namespace {
+
+/// Measures consecutive stages: each call of lap() returns the milliseconds since the last one.
+class Stopwatch {
+ public:
+  double lap() {
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double, std::milli> elapsed = now - start_;
+    start_ = now;
+    return elapsed.count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+const MapperConfig& validated(const MapperConfig& config) {
+  config.validate();
+  return config;
+}
+
+void requireValid(const DepthImage& image, const PinholeIntrinsics& intrinsics) {
+  const std::size_t pixel_bytes = image.format == DepthImage::Format::kUint16 ? 2 : 4;
+  if (image.data == nullptr || image.width <= 0 || image.height <= 0 ||
+      image.row_bytes < image.width * pixel_bytes) {
+    throw std::invalid_argument("depth image: no pixels, or rows shorter than its width");
+  }
+  if (!intrinsics.valid()) {
+    throw std::invalid_argument("camera intrinsics: focal lengths must be positive and finite");
+  }
+}
+
+constexpr double kRotationTolerance = 1e-3;
+
+void requireValid(const ScanPose& pose, const VoxelLattice& lattice) {
+  if (!lattice.canIndex(pose.vehicle_W) || !lattice.canIndex(pose.T_W_S.translation())) {
+    throw std::invalid_argument("pose: position is not finite or too far from the origin");
+  }
+  const Eigen::Matrix3d R = pose.T_W_S.linear();
+  if (!R.allFinite() || !R.isUnitary(kRotationTolerance)) {
+    throw std::invalid_argument("pose: orientation is not a rotation");
+  }
+}
+
+}  // namespace
+
+Mapper::Mapper(const MapperConfig& config)
+    : config_(validated(config)),
+      lattice_(config.resolution),
+      log_odds_(config),
+      grid_(lattice_.sizeOf(config.mapSize())),
+      depth_projector_(config),
+      point_projector_(config),
+      ray_caster_(lattice_, config.ray_end_cut),
+      integrator_(log_odds_),
+      inflater_(makeInflater(config)) {}
+
+ScanReport Mapper::integrate(const DepthImage& image, const PinholeIntrinsics& intrinsics,
+                             const ScanPose& pose) {
+  requireValid(image, intrinsics);
+  requireValid(pose, lattice_);
+  Stopwatch stopwatch;
+  ScanReport report;
+  report.readings = depth_projector_.project(image, intrinsics, pose.T_W_S, &scan_);
+  report.times_ms.project = stopwatch.lap();
+  return integrateScan(pose, report);
+}
+
+ScanReport Mapper::integrate(const PointScan& points, const ScanPose& pose) {
+  requireValid(pose, lattice_);
+  Stopwatch stopwatch;
+  ScanReport report;
+  report.readings = point_projector_.project(points, pose.T_W_S, &scan_);
+  report.times_ms.project = stopwatch.lap();
+  return integrateScan(pose, report);
+}
+
+/// The main loop of the map: everything between a scan in the world frame and exact inflation.
+ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
+  Stopwatch stopwatch;
+  const VoxelIndex vehicle = lattice_.indexOf(pose.vehicle_W);
+
+  changes_.clear();
+  follow(vehicle);
+  report.times_ms.slide = stopwatch.lap();
+
+  const VoxelIndex update_range = lattice_.sizeOf(config_.localUpdateRange());
+  const VoxelBox update_box = VoxelLattice::boxAround(vehicle, update_range);
+  report.rays = ray_caster_.cast(scan_, update_box.intersection(grid_.window()), &mask_);
+  report.times_ms.raycast = stopwatch.lap();
+
+  integrator_.apply(mask_, &grid_, &changes_);
+  report.times_ms.fuse = stopwatch.lap();
+
+  inflater_->update(changes_, &grid_);
+  report.times_ms.inflate = stopwatch.lap();
+
+  stamp_ns_ = pose.stamp_ns;
+  report.raise = changes_.raise.size();
+  report.lower = changes_.lower.size();
+  report.forgotten = changes_.forgotten.size();
+  return report;
+}
+
+/// Moves the window after the vehicle, on each axis on its own, when it left the middle too far.
+void Mapper::follow(const VoxelIndex& vehicle) {
+  const VoxelIndex size = grid_.window().size();
+  VoxelIndex center = grid_.window().min + size / 2;
+  if (!window_placed_) {
+    const bool sliding = config_.map_mode == MapMode::kSliding;
+    center = sliding ? vehicle : lattice_.indexOf(config_.mapCenter());
+    window_placed_ = true;
+  } else if (config_.map_mode == MapMode::kSliding) {
+    const int trigger =
+        std::max(1, static_cast<int>(std::lround(config_.slide_distance / config_.resolution)));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(vehicle[axis] - center[axis]) >= trigger) center[axis] = vehicle[axis];
+    }
+  }
+  grid_.moveTo(VoxelLattice::boxAround(center, size).min, &changes_.forgotten);
+}
+
+std::shared_ptr<const Snapshot> Mapper::snapshot() {
+  Snapshot::Info info;
+  info.stamp_ns = stamp_ns_;
+  info.sequence = ++sequence_;
+  info.resolution = config_.resolution;
+  info.inflation_shape = config_.inflation_shape;
+  info.inflation_radius = config_.inflation_radius;
+  if (config_.virtual_walls) info.walls = {config_.virtual_floor, config_.virtual_ceiling};
+  return std::make_shared<const Snapshot>(&grid_, info);
+}
+
+void Mapper::reset() {
+  grid_.clear();
+  window_placed_ = false;
+}
+
+void Mapper::setInflation(double radius, ElementShape shape) {
+  MapperConfig changed = config_;
+  changed.inflation_radius = radius;
+  changed.inflation_shape = shape;
+  changed.validate();
+  config_ = changed;
+  inflater_ = makeInflater(config_);
+  rebuildInflation(inflater_.get(), &grid_);
+}
+
+std::size_t Mapper::memoryBytes() const { return grid_.memoryBytes() + mask_.memoryBytes(); }
+
+}  // namespace fiimap

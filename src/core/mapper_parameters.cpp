@@ -1,0 +1,140 @@
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fiimap/parameters.h"
+
+namespace fiimap {
+namespace {
+
+constexpr double kMinResolution = 0.01, kMaxResolution = 10.0;  // m
+constexpr double kMaxMapSize = 10000.0;                         // m
+constexpr double kMaxCenter = 1e7;                              // m
+constexpr double kMinRange = 0.0, kMaxRange = 1000.0;           // m
+constexpr double kMaxRadius = 100.0;                            // m
+constexpr int kMaxReach = 64;                                   // voxels
+constexpr double kMaxWindowVoxels = 1e10;
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void requireLess(const std::string& low_name, double low, const std::string& high_name,
+                 double high) {
+  if (low < high) return;
+  refuse("parameter " + low_name + " = " + std::to_string(low) + ": must be less than " +
+         high_name + " = " + std::to_string(high));
+}
+
+}  // namespace
+
+std::vector<Parameter> mapperParameters(MapperConfig* c) {
+  const auto policy = [](const std::string& name, ReadingPolicy* field,
+                         const std::string& meaning) {
+    return choiceParameter(name, field, {"ignore", "free"}, meaning);
+  };
+  return {
+      numberParameter("resolution", &c->resolution, kMinResolution, kMaxResolution, "m",
+                      "edge length of a voxel"),
+      choiceParameter("map_mode", &c->map_mode, {"sliding", "fixed"},
+                      "whether the window follows the vehicle or stays around map_center"),
+      numberParameter("map_size_x", &c->map_size_x, kMinResolution, kMaxMapSize, "m",
+                      "extent of the window along x"),
+      numberParameter("map_size_y", &c->map_size_y, kMinResolution, kMaxMapSize, "m",
+                      "extent of the window along y"),
+      numberParameter("map_size_z", &c->map_size_z, kMinResolution, kMaxMapSize, "m",
+                      "extent of the window along z"),
+      numberParameter("map_center_x", &c->map_center_x, -kMaxCenter, kMaxCenter, "m",
+                      "middle of a fixed window"),
+      numberParameter("map_center_y", &c->map_center_y, -kMaxCenter, kMaxCenter, "m",
+                      "middle of a fixed window"),
+      numberParameter("map_center_z", &c->map_center_z, -kMaxCenter, kMaxCenter, "m",
+                      "middle of a fixed window"),
+      numberParameter("slide_distance", &c->slide_distance, 0.0, kMaxMapSize, "m",
+                      "how far the vehicle may leave the window's middle along an axis before the "
+                      "window follows on that axis"),
+      numberParameter("local_update_range_x", &c->local_update_range_x, kMinResolution, kMaxMapSize,
+                      "m", "full extent of the box around the vehicle that scans may change"),
+      numberParameter("local_update_range_y", &c->local_update_range_y, kMinResolution, kMaxMapSize,
+                      "m", "full extent of the box around the vehicle that scans may change"),
+      numberParameter("local_update_range_z", &c->local_update_range_z, kMinResolution, kMaxMapSize,
+                      "m", "full extent of the box around the vehicle that scans may change"),
+
+      numberParameter("depth_scale", &c->depth_scale, 1e-6, 1.0, "m per unit",
+                      "metres per unit of a 16-bit depth image"),
+      numberParameter("min_depth", &c->min_depth, kMinRange, kMaxRange, "m",
+                      "nearer depth readings are ignored"),
+      numberParameter("max_depth", &c->max_depth, kMinRange, kMaxRange, "m",
+                      "farther depth readings are treated as beyond_max_depth says"),
+      integerParameter("pixel_step", &c->pixel_step, 0, 1000, "pixels",
+                       "use every n-th pixel of every n-th row of images and organised clouds; 0: "
+                       "the paper's eq. 5, samples at max_depth one voxel apart (clouds: 1)"),
+      integerParameter("border_margin", &c->border_margin, 0, 10000, "pixels",
+                       "pixels to leave out at each border of a depth image"),
+      policy("invalid_depth", &c->invalid_depth, "what 0 and NaN readings mean for their ray"),
+      policy("infinite_depth", &c->infinite_depth, "what +inf readings mean for their ray"),
+      policy("beyond_max_depth", &c->beyond_max_depth,
+             "what readings beyond max_depth or max_ray_length mean for their ray"),
+
+      numberParameter("min_ray_length", &c->min_ray_length, kMinRange, kMaxRange, "m",
+                      "nearer points are ignored (the vehicle's own body)"),
+      numberParameter("max_ray_length", &c->max_ray_length, kMinRange, kMaxRange, "m",
+                      "rays are cut off at this length; farther points do not mark obstacles"),
+      numberParameter("ray_end_cut", &c->ray_end_cut, 0.0, 100.0, "voxels",
+                      "a ray frees voxels up to this far in front of the surface that it met"),
+
+      numberParameter("p_hit", &c->p_hit, 0.501, 0.999, "",
+                      "probability of occupancy after one hit (eq. 6)"),
+      numberParameter("p_miss", &c->p_miss, 0.001, 0.499, "",
+                      "probability of occupancy after one miss (eq. 6)"),
+      numberParameter("p_min", &c->p_min, 0.001, 0.499, "", "lower clamp of the probability (eq. 8)"),
+      numberParameter("p_max", &c->p_max, 0.501, 0.999, "", "upper clamp of the probability (eq. 8)"),
+      numberParameter("p_occ", &c->p_occ, 0.501, 0.999, "",
+                      "a voxel is occupied from this probability on"),
+
+      numberParameter("inflation_radius", &c->inflation_radius, 0.0, kMaxRadius, "m",
+                      "how far obstacles are inflated; at most 64 voxels"),
+      choiceParameter("inflation_shape", &c->inflation_shape, {"ball", "cube", "diamond"},
+                      "shape of the structuring element"),
+      choiceParameter("inflation_method", &c->inflation_method, {"incremental", "bfs", "batch"},
+                      "how the inflated layer is kept; all give the same result"),
+      integerParameter("bfs_connectivity", &c->bfs_connectivity, 6, 26, "",
+                       "6, 18 or 26: neighbours visited by the method bfs"),
+
+      flagParameter("virtual_walls", &c->virtual_walls,
+                    "whether queries treat everything below virtual_floor and above "
+                    "virtual_ceiling as an obstacle"),
+      numberParameter("virtual_floor", &c->virtual_floor, -kMaxCenter, kMaxCenter, "m",
+                      "height of the virtual floor"),
+      numberParameter("virtual_ceiling", &c->virtual_ceiling, -kMaxCenter, kMaxCenter, "m",
+                      "height of the virtual ceiling"),
+  };
+}
+
+void MapperConfig::validate() const {
+  MapperConfig copy = *this;
+  for (const Parameter& parameter : mapperParameters(&copy)) parameter.set(parameter.get());
+
+  requireLess("min_depth", min_depth, "max_depth", max_depth);
+  requireLess("min_ray_length", min_ray_length, "max_ray_length", max_ray_length);
+  requireLess("p_occ", p_occ, "p_max", p_max);
+  requireLess("p_min", p_min, "p_miss", p_miss);
+  if (virtual_walls) {
+    requireLess("virtual_floor", virtual_floor, "virtual_ceiling", virtual_ceiling);
+  }
+  if (bfs_connectivity != 6 && bfs_connectivity != 18 && bfs_connectivity != 26) {
+    refuse("parameter bfs_connectivity = " + std::to_string(bfs_connectivity) +
+           ": must be 6, 18 or 26");
+  }
+  if (inflation_radius / resolution > kMaxReach) {
+    refuse("parameter inflation_radius = " + std::to_string(inflation_radius) +
+           ": must be at most " + std::to_string(kMaxReach) + " voxels of " +
+           std::to_string(resolution) + " m");
+  }
+  const double voxels = (mapSize() / resolution).prod();
+  if (voxels > kMaxWindowVoxels) {
+    refuse("parameters map_size_x/y/z and resolution: the window would have " +
+           std::to_string(voxels) + " voxels, must be at most " +
+           std::to_string(kMaxWindowVoxels));
+  }
+}
+
+}  // namespace fiimap
