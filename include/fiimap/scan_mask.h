@@ -39,8 +39,9 @@ class ScanMask {
     const std::uint64_t* words = column(layer, x, y);
     return std::any_of(words, words + words_, [](std::uint64_t word) { return word != 0; });
   }
-  /// Sets a bit. \return false when it was set already.
-  bool mark(Layer layer, const VoxelIndex& v);
+  void mark(Layer layer, const VoxelIndex& v) {
+    column(layer, v.x(), v.y())[v.z() / kWordBits] |= std::uint64_t{1} << (v.z() % kWordBits);
+  }
   /// Sets the bits z_low..z_high (inclusive, clipped to the box) of the free layer.
   void markFreeRun(int x, int y, int z_low, int z_high);
 

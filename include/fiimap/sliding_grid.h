@@ -75,6 +75,10 @@ class TileRing {
   /// \param columns window size along x and y.
   TileRing(int columns_x, int columns_y);
 
+  /// Largest number of tiles that a window touches along an axis: one that starts in the middle of a
+  /// tile touches one tile more than its size suggests.
+  static int tilesAcross(int columns) { return (columns + kTileSide - 2) / kTileSide + 1; }
+
   int slots() const { return (mask_x_ + 1) * (mask_y_ + 1); }
   /// Slot of the tile that holds column (x, y).
   int slotOf(int x, int y) const {
@@ -162,6 +166,7 @@ class SlidingGrid {
   void forgetColumn(int x, int y, const std::uint64_t* kept_heights,
                     std::vector<VoxelIndex>* forgotten);
   std::size_t tileBytes() const;
+  std::size_t logOddsBytes() const;
 
   VoxelIndex size_;
   VoxelBox window_;

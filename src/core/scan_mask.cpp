@@ -21,14 +21,6 @@ void ScanMask::begin(const VoxelBox& box) {
   }
 }
 
-bool ScanMask::mark(Layer layer, const VoxelIndex& v) {
-  std::uint64_t& word = column(layer, v.x(), v.y())[v.z() / kWordBits];
-  const std::uint64_t bit = std::uint64_t{1} << (v.z() % kWordBits);
-  if ((word & bit) != 0) return false;
-  word |= bit;
-  return true;
-}
-
 void ScanMask::touch(int x, int y) {
   touched_.min = touched_.min.cwiseMin(VoxelIndex(x, y, 0));
   touched_.max = touched_.max.cwiseMax(VoxelIndex(x + 1, y + 1, size_.z()));

@@ -6,10 +6,8 @@ namespace fiimap {
 namespace {
 
 int ringSide(int columns) {
-  // A window that starts in the middle of a tile touches one tile more than its size suggests.
-  const int tiles = (columns + kTileSide - 2) / kTileSide + 1;
   int side = 1;
-  while (side < tiles) side *= 2;
+  while (side < TileRing::tilesAcross(columns)) side *= 2;
   return side;
 }
 
@@ -199,20 +197,24 @@ void SlidingGrid::drop(int slot_index) {
   live_.pop_back();
 }
 
+std::size_t SlidingGrid::logOddsBytes() const {
+  return static_cast<std::size_t>(kTileColumns) * layout_.bits();
+}
+
 std::size_t SlidingGrid::tileBytes() const {
   const std::size_t planes = sizeof(std::uint64_t) * kPlaneCount * kTileColumns * layout_.words();
-  const std::size_t log_odds = static_cast<std::size_t>(kTileColumns) * layout_.bits();
-  return planes + log_odds;
+  return planes + logOddsBytes();
 }
 
 std::size_t SlidingGrid::memoryBytes() const {
-  const std::size_t spare = static_cast<std::size_t>(kTileColumns) * layout_.bits();
   return slots_.size() * sizeof(Slot) + live_.size() * tileBytes() +
-         spare_log_odds_.size() * spare;
+         spare_log_odds_.size() * logOddsBytes();
 }
 
 std::size_t SlidingGrid::worstCaseMemoryBytes() const {
-  return slots_.size() * (sizeof(Slot) + tileBytes());
+  const std::size_t tiles_x = TileRing::tilesAcross(size_.x());
+  const std::size_t tiles_y = TileRing::tilesAcross(size_.y());
+  return slots_.size() * sizeof(Slot) + tiles_x * tiles_y * tileBytes();
 }
 
 }  // namespace fiimap
