@@ -7,7 +7,7 @@
 
 namespace fiimap {
 
-/// What one scan changed in the raw layer. Each voxel appears at most once, in one list only.
+/// What one update changed in the raw layer. Each voxel appears at most once, in one list only.
 struct ChangeSet {
   /// Became occupied (the paper's lower array).
   std::vector<VoxelIndex> lower;
@@ -15,14 +15,20 @@ struct ChangeSet {
   std::vector<VoxelIndex> raise;
   /// Were occupied when the window left them behind; outside of the window now.
   std::vector<VoxelIndex> forgotten;
+  /// Parts of the window that it did not cover before it moved (they may overlap). Nothing is known
+  /// in them yet, but obstacles beside them inflate voxels there.
+  std::vector<VoxelBox> entered;
 
   /// The paper's change score (Section 5.2.3).
   std::size_t score() const { return lower.size() + raise.size(); }
-  bool empty() const { return lower.empty() && raise.empty() && forgotten.empty(); }
+  bool empty() const {
+    return lower.empty() && raise.empty() && forgotten.empty() && entered.empty();
+  }
   void clear() {
     lower.clear();
     raise.clear();
     forgotten.clear();
+    entered.clear();
   }
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fiimap/bit_column.h"
+#include "fiimap/change_set.h"
 #include "fiimap/voxel_lattice.h"
 
 namespace fiimap {
@@ -106,10 +107,10 @@ class SlidingGrid {
   const ColumnLayout& layout() const { return layout_; }
   const TileRing& ring() const { return ring_; }
 
-  /// Moves the window so that its lowest corner is `min`. Voxels left behind are forgotten; those
-  /// of them that were occupied are appended to `forgotten`. The inflated plane keeps its bits
-  /// inside the window and is exact again after the next Inflater::update with these voxels.
-  void moveTo(const VoxelIndex& min, std::vector<VoxelIndex>* forgotten);
+  /// Moves the window so that its lowest corner is `min`. Voxels left behind are forgotten. Appends
+  /// to changes->forgotten and changes->entered. The inflated plane keeps its bits inside the window
+  /// and is exact again after the next Inflater::update with these changes.
+  void moveTo(const VoxelIndex& min, ChangeSet* changes);
   /// Forgets everything; the window stays.
   void clear();
   /// Clears one plane in the whole window.
@@ -135,9 +136,9 @@ class SlidingGrid {
   const std::vector<int>& liveSlots() const { return live_; }
   /// Lowest column of the tile in a live slot (x, y; z is 0).
   const VoxelIndex& tileOrigin(int slot) const { return slots_[slot].origin; }
-  /// Calls visit(VoxelIndex) for every set voxel of a plane, tile by tile, in a fixed order.
+  /// Calls visit(VoxelIndex) for every set voxel of a plane in a box, tile by tile.
   template <typename Visitor>
-  void forEach(Plane plane, Visitor&& visit) const;
+  void forEach(Plane plane, const VoxelBox& box, Visitor&& visit) const;
 
   /// Shares the tiles as they are now, by slot (null where nothing was written). Later changes of
   /// the grid do not show in them.
@@ -182,15 +183,23 @@ class SlidingGrid {
 };
 
 template <typename Visitor>
-void SlidingGrid::forEach(Plane plane, Visitor&& visit) const {
+void SlidingGrid::forEach(Plane plane, const VoxelBox& box, Visitor&& visit) const {
+  const VoxelBox inside = box.intersection(window_);
+  if (inside.empty()) return;
+  std::vector<std::uint64_t> heights(layout_.words());
+  heightMask(inside.min.z(), inside.max.z(), heights.data());
+  std::vector<std::uint64_t> found(layout_.words());
   for (const int slot : live_) {
-    const VoxelIndex& origin = tileOrigin(slot);
-    for (int i = 0; i < kTileColumns; ++i) {
-      const int x = origin.x() + (i >> kTileShift);
-      const int y = origin.y() + (i & (kTileSide - 1));
-      forEachBit(column(plane, x, y), layout_.words(), [&](int bit) {
-        visit(VoxelIndex(x, y, layout_.heightOf(bit, window_.min.z())));
-      });
+    const VoxelIndex first = tileOrigin(slot).cwiseMax(inside.min);
+    const VoxelIndex end = (tileOrigin(slot).array() + kTileSide).matrix().cwiseMin(inside.max);
+    for (int x = first.x(); x < end.x(); ++x) {
+      for (int y = first.y(); y < end.y(); ++y) {
+        const std::uint64_t* words = column(plane, x, y);
+        for (int w = 0; w < layout_.words(); ++w) found[w] = words[w] & heights[w];
+        forEachBit(found.data(), layout_.words(), [&](int bit) {
+          visit(VoxelIndex(x, y, layout_.heightOf(bit, window_.min.z())));
+        });
+      }
     }
   }
 }

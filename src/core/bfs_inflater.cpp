@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "obstacles.h"
+
 namespace fiimap {
 namespace {
 
@@ -52,7 +54,8 @@ BfsInflater::BfsInflater(const StructuringElement& element, int connectivity)
 }
 
 void BfsInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
-  lower_ = changes.lower;
+  lower_ = obstaclesBeside(changes.entered, element_.reach(), *grid);
+  lower_.insert(lower_.end(), changes.lower.begin(), changes.lower.end());
   for (const VoxelIndex& v : changes.raise) raise(v, grid);
   for (const VoxelIndex& v : changes.forgotten) raise(v, grid);
   std::sort(lower_.begin(), lower_.end(), [](const VoxelIndex& a, const VoxelIndex& b) {

@@ -33,6 +33,7 @@ class BfsInflater : public Inflater {
     }
     std::size_t indexOf(const VoxelIndex& offset) const;
     std::size_t cells() const { return flags_.size(); }
+    int reach() const { return reach_; }
 
    private:
     int reach_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "obstacles.h"
+
 namespace fiimap {
 namespace {
 
@@ -38,7 +40,8 @@ void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
   if (changes.empty()) return;
   words_ = grid->layout().words();
   dirty_slots_.resize(grid->ring().slots(), kNotDirty);
-  for (const auto* list : {&changes.lower, &changes.raise, &changes.forgotten}) {
+  const std::vector<VoxelIndex> uncovered = obstaclesBeside(changes.entered, reach_, *grid);
+  for (const auto* list : {&changes.lower, &changes.raise, &changes.forgotten, &uncovered}) {
     for (const VoxelIndex& v : *list) markAround(v, *grid);
   }
 

@@ -3,6 +3,7 @@
 #include "batch_inflater.h"
 #include "bfs_inflater.h"
 #include "incremental_inflater.h"
+#include "obstacles.h"
 
 namespace fiimap {
 
@@ -22,7 +23,7 @@ std::unique_ptr<Inflater> makeInflater(const MapperConfig& config) {
 void rebuildInflation(Inflater* inflater, SlidingGrid* grid) {
   grid->clearPlane(Plane::kInflated);
   ChangeSet everything;
-  grid->forEach(Plane::kOccupied, [&](const VoxelIndex& v) { everything.lower.push_back(v); });
+  everything.lower = obstaclesIn(grid->window(), *grid);
   inflater->update(everything, grid);
 }
 

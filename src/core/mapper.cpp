@@ -126,7 +126,7 @@ void Mapper::follow(const VoxelIndex& vehicle) {
       if (std::abs(vehicle[axis] - center[axis]) >= trigger) center[axis] = vehicle[axis];
     }
   }
-  grid_.moveTo(VoxelLattice::boxAround(center, size).min, &changes_.forgotten);
+  grid_.moveTo(VoxelLattice::boxAround(center, size).min, &changes_);
 }
 
 std::shared_ptr<const Snapshot> Mapper::snapshot() {

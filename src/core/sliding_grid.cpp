@@ -31,9 +31,20 @@ SlidingGrid::SlidingGrid(const VoxelIndex& size)
       zero_column_(layout_.words(), 0),
       scratch_column_(layout_.words(), 0) {}
 
-void SlidingGrid::moveTo(const VoxelIndex& min, std::vector<VoxelIndex>* forgotten) {
+void SlidingGrid::moveTo(const VoxelIndex& min, ChangeSet* changes) {
   const VoxelBox target{min, min + size_};
+  if (target == window_) return;
   const VoxelBox kept = target.intersection(window_);
+  for (int axis = 0; axis < 3; ++axis) {
+    VoxelBox entered = target;
+    if (kept.empty() || min[axis] == window_.min[axis]) continue;
+    if (min[axis] > window_.min[axis]) {
+      entered.min[axis] = kept.max[axis];
+    } else {
+      entered.max[axis] = kept.min[axis];
+    }
+    changes->entered.push_back(entered);
+  }
   // A copy, because dropping a tile edits the list.
   const std::vector<int> slots = live_;
   for (const int slot : slots) {
@@ -43,9 +54,9 @@ void SlidingGrid::moveTo(const VoxelIndex& min, std::vector<VoxelIndex>* forgott
     const VoxelBox kept_here = tile.intersection(kept);
     if (kept_here == tile) continue;
     if (kept_here.empty()) {
-      forgetTile(slot, forgotten);
+      forgetTile(slot, &changes->forgotten);
     } else {
-      forgetColumns(slot, kept, forgotten);
+      forgetColumns(slot, kept, &changes->forgotten);
     }
   }
   window_ = target;

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace fiimap {
+
+/// Why a scan did not become part of the map.
+enum class DropReason {
+  kZeroStamp,      ///< the message has no stamp
+  kStaleStamp,     ///< not newer than the scan before
+  kTimeJump,       ///< waited while the stamps jumped back
+  kQueueFull,      ///< displaced by newer scans while it waited for its pose
+  kPoseTimeout,    ///< no pose at or after its stamp came in time
+  kPoseTooOld,     ///< older than every pose that is kept
+  kPoseGap,        ///< the poses around it are too far apart in time
+  kBadPose,        ///< poses are not finite, not rotations, or out of the map's range
+  kFrameMismatch,  ///< poses are in another frame than map_frame
+  kNoExtrinsics,   ///< sensor frame and body frame are not connected
+  kNoCameraInfo,   ///< no camera_info for the depth image
+  kBadCameraInfo,  ///< intrinsics are zero or of another image size
+  kBadImage,       ///< sizes in the message contradict each other
+  kBadEncoding,    ///< not a depth image's encoding
+  kBadCloud,       ///< no x y z of type float32, or sizes contradict each other
+  kOverload,       ///< newer scans came before the map had time for it
+};
+constexpr int kDropReasonCount = static_cast<int>(DropReason::kOverload) + 1;
+
+/// Name for messages, JSON and diagnostics, for instance "pose_timeout".
+const char* nameOf(DropReason reason);
+/// What a user can do about it: one sentence without full stop.
+const char* remedyFor(DropReason reason);
+
+/// One dropped scan.
+struct Drop {
+  DropReason reason = DropReason::kZeroStamp;
+  std::string detail;  ///< what was found, with the values
+
+  /// "name: detail; remedy".
+  std::string text() const;
+};
+
+/// Data that cannot be used; the scan or pose that holds it is dropped.
+class InputError : public std::runtime_error {
+ public:
+  InputError(DropReason reason, const std::string& detail)
+      : std::runtime_error(detail), reason_(reason) {}
+
+  DropReason reason() const { return reason_; }
+  Drop drop() const { return {reason_, what()}; }
+
+ private:
+  DropReason reason_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "fiimap/snapshot.h"
+
+namespace fiimap {
+
+/// Writes <name>_occupied.pcd, <name>_inflated.pcd (voxel centres, m, binary) and <name>.bt
+/// (OctoMap of the raw layer, occupied and free). Each file is complete or as it was before. \param
+/// directory must exist; \param name letters, digits, '_', '-' and '.'. \return what was written,
+/// in words. \throws std::runtime_error that says what is wrong with directory or name, or which
+/// file could not be written.
+std::string saveMap(const Snapshot& snapshot, const std::string& directory,
+                    const std::string& name);
+
+/// Writes the centres of the set voxels of a plane as a binary PCD file.
+/// \throws std::runtime_error.
+void writePcd(const Snapshot& snapshot, Plane plane, const std::string& file);
+
+/// Writes occupied and free voxels as an OctoMap .bt file.
+/// \throws std::runtime_error, also when the window lies beyond the reach of an OctoMap.
+void writeOctomap(const Snapshot& snapshot, const std::string& file);
+
+}  // namespace fiimap

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "fiimap/mapper_config.h"
+#include "fiimap/parameters.h"
+
+namespace fiimap {
+
+enum class SensorKind {
+  kDepth,   ///< sensor_msgs/Image with sensor_msgs/CameraInfo
+  kPoints,  ///< sensor_msgs/PointCloud2
+};
+
+enum class PoseSource { kOdometry, kPose, kTransform, kTf };
+
+enum class ExtrinsicsSource {
+  kTf,         ///< body to sensor frame from TF, at the scan's stamp
+  kParameter,  ///< extrinsic_translation and extrinsic_rotation
+};
+
+/// Settings of the inputs and outputs, beside those of the map. Names are the parameter names;
+/// units, ranges and meanings: node_config.cpp and config/default.yaml.
+struct NodeConfig {
+  std::string map_frame = "world";
+  SensorKind sensor = SensorKind::kDepth;
+  PoseSource pose_source = PoseSource::kOdometry;
+  std::string body_frame;
+  ExtrinsicsSource extrinsics = ExtrinsicsSource::kTf;
+  Eigen::Vector3d extrinsic_translation = Eigen::Vector3d::Zero();
+  Eigen::Vector4d extrinsic_rotation = Eigen::Vector4d::UnitW();  // x y z w
+
+  double time_offset = 0.0;
+  double max_pose_gap = 0.1;
+  double max_pose_wait = 0.5;
+  double pose_history = 5.0;
+  int scan_queue_size = 10;
+  int ready_queue_size = 2;
+
+  double publish_rate = 10.0;
+  std::string save_directory;
+
+  /// Sensor to body from the parameters.
+  Eigen::Isometry3d parameterExtrinsics() const;
+
+  /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+  void validate() const;
+};
+
+/// All parameters of a NodeConfig, bound to `config`, in the order of config/default.yaml.
+std::vector<Parameter> nodeParameters(NodeConfig* config);
+
+/// Sets and validates both configurations, as the nodelet and the offline tool do.
+/// \return the names in `values` that no parameter has.
+/// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+std::vector<std::string> configure(const ParameterMap& values, MapperConfig* mapper,
+                                   NodeConfig* node);
+
+}  // namespace fiimap

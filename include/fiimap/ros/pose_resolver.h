@@ -1,0 +1,72 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+#include "fiimap/ros/drop_reason.h"
+#include "fiimap/ros/node_config.h"
+#include "fiimap/ros/pose_history.h"
+#include "fiimap/ros/transform_tree.h"
+
+namespace fiimap {
+
+/// Pose of a sensor at a stamp, or why it is not known.
+struct ResolvedPose {
+  enum class State {
+    kFound,
+    kPending,     ///< may be known later
+    kImpossible,  ///< will never be known
+  };
+
+  State state = State::kPending;
+  Drop why;                                                 ///< unless found
+  Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();  ///< sensor to world
+  Eigen::Vector3d vehicle_W = Eigen::Vector3d::Zero();      ///< position of the vehicle, m
+  /// The sensor is not rotated on its body, or there is no body frame to tell.
+  bool sensor_axes_like_body = true;
+  double gap = 0.0;  ///< s between the poses around the stamp
+};
+
+/// Finds where a sensor was, from the configured source of poses and extrinsics.
+/// Not thread-safe.
+class PoseResolver {
+ public:
+  /// \param config validated.
+  explicit PoseResolver(const NodeConfig& config);
+
+  void add(const nav_msgs::Odometry& odometry);
+  void add(const geometry_msgs::PoseStamped& pose);
+  void add(const geometry_msgs::TransformStamped& transform);
+  void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
+  /// Forgets poses and moving transforms.
+  void clear();
+
+  /// Stamp of the newest pose message; zero when there is none.
+  ros::Time newestPose() const { return history_.newest(); }
+  /// Number of pose messages (not TF) that could not be used.
+  std::uint64_t refusedPoses() const { return refused_poses_; }
+
+  ResolvedPose at(const std::string& sensor_frame, const ros::Time& stamp) const;
+
+ private:
+  ResolvedPose withoutMessage(const PoseAtStamp& pose, const ros::Time& stamp) const;
+  ResolvedPose sensorOnBody(const Eigen::Isometry3d& T_W_B, double gap,
+                            const std::string& body_frame, const std::string& sensor_frame,
+                            const ros::Time& stamp) const;
+  ResolvedPose bodyFromTf(const std::string& sensor_frame, const ros::Time& stamp) const;
+  ResolvedPose sensorFromTf(const std::string& sensor_frame, const ros::Time& stamp) const;
+
+  NodeConfig config_;
+  PoseHistory history_;
+  TransformTree tree_;
+  std::optional<Drop> refused_;  // why the newest pose message could not be used
+  std::uint64_t refused_poses_ = 0;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <cstdint>
+
+namespace fiimap {
+
+/// Seconds from one stamp to another, negative when `to` is earlier. Unlike ros::Duration it does
+/// not throw for stamps that are decades apart, as those of misconfigured drivers are.
+inline double secondsBetween(const ros::Time& from, const ros::Time& to) {
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  return static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
+                             static_cast<std::int64_t>(from.toNSec())) *
+         kSecondsPerNanosecond;
+}
+
+}  // namespace fiimap

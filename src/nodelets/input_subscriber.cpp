@@ -1,0 +1,103 @@
+#include "input_subscriber.h"
+
+#include <functional>
+
+#include <ros/transport_hints.h>
+
+namespace fiimap {
+namespace {
+
+constexpr int kScanQueue = 10;
+constexpr int kPoseQueue = 1000;
+
+template <typename Message>
+using Callback = boost::function<void(const boost::shared_ptr<const Message>&)>;
+
+ros::TransportHints withoutDelay() { return ros::TransportHints().tcpNoDelay(); }
+
+}  // namespace
+
+InputSubscriber::InputSubscriber(const ros::NodeHandle& node, const NodeConfig& config,
+                                 MappingThread* mapping)
+    : node_(node), mapping_(mapping) {
+  const bool poses_from_tf = config.pose_source == PoseSource::kTf;
+  // First what scans need, so that the first scan finds it.
+  if (poses_from_tf || config.extrinsics == ExtrinsicsSource::kTf) subscribeToTf(poses_from_tf);
+  if (!poses_from_tf) subscribeToPoses(config);
+  subscribeToScans(config);
+}
+
+InputSubscriber::~InputSubscriber() {
+  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+}
+
+void InputSubscriber::subscribeToScans(const NodeConfig& config) {
+  if (config.sensor == SensorKind::kPoints) {
+    topics_.scans = subscribeToScanTopic<sensor_msgs::PointCloud2>("points");
+    return;
+  }
+  const Callback<sensor_msgs::CameraInfo> on_info =
+      [this](const sensor_msgs::CameraInfoConstPtr& info) {
+        ++counts_.camera_infos;
+        mapping_->post([info](ScanSynchronizer* synchronizer) { synchronizer->add(info); });
+      };
+  subscribers_.push_back(
+      node_.subscribe<sensor_msgs::CameraInfo>("depth/camera_info", kScanQueue, on_info));
+  topics_.camera_infos = subscribers_.back().getTopic();
+  topics_.scans = subscribeToScanTopic<sensor_msgs::Image>("depth/image");
+}
+
+template <typename Message>
+std::string InputSubscriber::subscribeToScanTopic(const std::string& topic) {
+  const Callback<Message> on_scan = [this](const boost::shared_ptr<const Message>& scan) {
+    ++counts_.scans;
+    mapping_->addScan(scan);
+  };
+  subscribers_.push_back(node_.subscribe<Message>(topic, kScanQueue, on_scan));
+  return subscribers_.back().getTopic();
+}
+
+void InputSubscriber::subscribeToPoses(const NodeConfig& config) {
+  switch (config.pose_source) {
+    case PoseSource::kPose:
+      topics_.poses = subscribeToPoseTopic<geometry_msgs::PoseStamped>("pose");
+      return;
+    case PoseSource::kTransform:
+      topics_.poses = subscribeToPoseTopic<geometry_msgs::TransformStamped>("transform");
+      return;
+    default:
+      topics_.poses = subscribeToPoseTopic<nav_msgs::Odometry>("odom");
+  }
+}
+
+template <typename Message>
+std::string InputSubscriber::subscribeToPoseTopic(const std::string& topic) {
+  const Callback<Message> on_pose = [this](const boost::shared_ptr<const Message>& pose) {
+    ++counts_.poses;
+    mapping_->post([pose](ScanSynchronizer* synchronizer) { synchronizer->add(*pose); });
+  };
+  subscribers_.push_back(
+      node_.subscribe<Message>(topic, kPoseQueue, on_pose, ros::VoidConstPtr(), withoutDelay()));
+  return subscribers_.back().getTopic();
+}
+
+// Not through a tf2_ros::TransformListener: transforms pass the same queue as all other input, so
+// the order of arrival decides, as in a bag, and one thread owns them.
+void InputSubscriber::subscribeToTf(bool gives_poses) {
+  const auto subscribe = [this](const std::string& topic, bool is_static, bool counts_as_pose) {
+    const Callback<tf2_msgs::TFMessage> on_tf = [=](const tf2_msgs::TFMessageConstPtr& message) {
+      if (counts_as_pose) ++counts_.poses;
+      mapping_->post([message, is_static](ScanSynchronizer* synchronizer) {
+        synchronizer->addTf(*message, is_static);
+      });
+    };
+    subscribers_.push_back(node_.subscribe<tf2_msgs::TFMessage>(
+        topic, kPoseQueue, on_tf, ros::VoidConstPtr(), withoutDelay()));
+    return subscribers_.back().getTopic();
+  };
+  subscribe("/tf_static", true, false);
+  const std::string topic = subscribe("/tf", false, gives_poses);
+  if (gives_poses) topics_.poses = topic;
+}
+
+}  // namespace fiimap

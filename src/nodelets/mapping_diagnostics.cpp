@@ -1,0 +1,151 @@
+#include "mapping_diagnostics.h"
+
+#include <utility>
+
+namespace fiimap {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr int kPercent = 100;
+
+const char* nameOf(Occupancy occupancy) {
+  switch (occupancy) {
+    case Occupancy::kFree:
+      return "free";
+    case Occupancy::kOccupied:
+      return "occupied";
+    case Occupancy::kOutside:
+      return "outside of the window";
+    default:
+      return "unknown";
+  }
+}
+
+double secondsBetween(std::chrono::steady_clock::time_point from,
+                      std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+MappingDiagnostics::MappingDiagnostics(const ros::NodeHandle& node,
+                                       const ros::NodeHandle& private_node, const std::string& name,
+                                       const InputSubscriber& inputs,
+                                       std::function<ScanCounters()> counters)
+    : inputs_(inputs), counters_(std::move(counters)), updater_(node, private_node, name) {
+  before_ = now_ = totals();
+  updater_.setHardwareID("none");
+  updater_.add("inputs", this, &MappingDiagnostics::reportInputs);
+  updater_.add("map", this, &MappingDiagnostics::reportMap);
+}
+
+void MappingDiagnostics::onUpdate(const MapUpdate& update) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  update_ = update;
+  updated_ = Clock::now();
+}
+
+void MappingDiagnostics::onReset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  update_.reset();
+}
+
+std::string MappingDiagnostics::publish() {
+  before_ = std::exchange(now_, totals());
+  // Not update(): it would be silent after simulated time went back.
+  updater_.force_update();
+  return missingInput();
+}
+
+MappingDiagnostics::Totals MappingDiagnostics::totals() const {
+  const InputCounts& counts = inputs_.counts();
+  return {Clock::now(), counts.scans, counts.camera_infos, counts.poses, counters_()};
+}
+
+std::string MappingDiagnostics::missingInput() const {
+  const std::string remedy = ": check that it is published and remapped";
+  const InputTopics& topics = inputs_.topics();
+  if (now_.scans == 0) return "no scans received on " + topics.scans + remedy;
+  if (!topics.camera_infos.empty() && now_.camera_infos == 0) {
+    return "no camera_info received on " + topics.camera_infos + remedy;
+  }
+  if (now_.poses == 0) return "no poses received on " + topics.poses + remedy;
+  return "";
+}
+
+void MappingDiagnostics::reportInputs(Status& status) {
+  const double seconds = secondsBetween(before_.time, now_.time);
+  const auto rate = [seconds](std::uint64_t before, std::uint64_t now) {
+    return seconds > 0.0 ? static_cast<double>(now - before) / seconds : 0.0;
+  };
+  const ScanCounters& counters = now_.counters;
+  const std::uint64_t dropped = counters.dropped() - before_.counters.dropped();
+  const std::uint64_t integrated = counters.integrated - before_.counters.integrated;
+  const std::string missing = missingInput();
+  if (!missing.empty()) {
+    status.summary(DiagnosticStatus::ERROR, missing);
+  } else if (now_.scans == before_.scans) {
+    status.summary(DiagnosticStatus::ERROR, "scans stopped on " + inputs_.topics().scans);
+  } else if (dropped > 0) {
+    status.summary(
+        integrated == 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+        (integrated == 0 ? "all scans dropped: " : "scans dropped: ") + counters.last_drop);
+  } else {
+    status.summary(DiagnosticStatus::OK, "scans and poses come in");
+  }
+  status.addf("scan rate [Hz]", "%.1f", rate(before_.scans, now_.scans));
+  status.addf("camera_info rate [Hz]", "%.1f", rate(before_.camera_infos, now_.camera_infos));
+  status.addf("pose rate [Hz]", "%.1f", rate(before_.poses, now_.poses));
+  status.add("scans received", counters.received);
+  status.add("scans integrated", counters.integrated);
+  status.add("scans waiting", counters.waiting());
+  status.add("scans dropped", counters.dropped());
+  for (int i = 0; i < kDropReasonCount; ++i) {
+    const auto reason = static_cast<DropReason>(i);
+    if (counters.dropped(reason) == 0) continue;
+    status.add(std::string("dropped: ") + fiimap::nameOf(reason), counters.dropped(reason));
+  }
+  status.add("last drop", counters.last_drop);
+}
+
+void MappingDiagnostics::reportMap(Status& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!update_) {
+    status.summary(DiagnosticStatus::ERROR, "no map yet, see inputs");
+    return;
+  }
+  const Snapshot& snapshot = *update_->snapshot;
+  const bool updating = now_.counters.integrated != before_.counters.integrated;
+  const Inflation at_vehicle = snapshot.inflation(update_->pose.vehicle_W);
+  if (!updating) {
+    status.summary(DiagnosticStatus::ERROR, "the map is not updated, see inputs");
+  } else if (at_vehicle == Inflation::kInflated) {
+    status.summary(DiagnosticStatus::WARN, "the vehicle is inside an obstacle or its inflation");
+  } else if (update_->report.readings.returns == 0) {
+    status.summary(DiagnosticStatus::WARN, "no reading of the newest scan is within range");
+  } else {
+    status.summary(DiagnosticStatus::OK, "the map is updated");
+  }
+  status.addf("map age [s]", "%.2f", secondsBetween(updated_, Clock::now()));
+  status.add("vehicle cell", nameOf(snapshot.occupancy(update_->pose.vehicle_W)));
+  status.add("vehicle cell inflated", at_vehicle == Inflation::kInflated);
+  addUpdate(*update_, &status);
+}
+
+void MappingDiagnostics::addUpdate(const MapUpdate& update, Status* status) {
+  const ReadingCount& readings = update.report.readings;
+  const double within_range =
+      readings.total > 0 ? static_cast<double>(kPercent * readings.returns) / readings.total : 0.0;
+  status->addf("readings within range [%]", "%.1f", within_range);
+  status->add("rays with a hit", update.report.rays.hits);
+  status->add("rays without a hit", update.report.rays.misses);
+  status->add("changed voxels", update.report.changeScore());
+  status->addf("pose gap [s]", "%.4f", update.pose_gap);
+  status->addf("update time [ms]", "%.2f", update.report.times_ms.total());
+  status->add("occupied voxels", update.snapshot->count(Plane::kOccupied));
+  status->add("inflated voxels", update.snapshot->count(Plane::kInflated));
+  status->addf("memory [MB]", "%.1f", static_cast<double>(update.memory_bytes) * 1e-6);
+}
+
+}  // namespace fiimap

@@ -1,0 +1,166 @@
+#include "mapping_nodelet.h"
+
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include <boost/make_shared.hpp>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "fiimap/ros/map_files.h"
+#include "fiimap/ros/map_handle_message.h"
+#include "fiimap/ros/map_messages.h"
+#include "fiimap/ros/parameter_sources.h"
+#include "statistics_message.h"
+
+namespace fiimap {
+namespace {
+
+constexpr int kStatisticsQueue = 100;
+constexpr int kHandleQueue = 10;
+constexpr double kDiagnosticsPeriod = 1.0;      // s
+constexpr double kMissingInputPeriod = 10.0;    // s between warnings
+constexpr std::chrono::seconds kDropPeriod{5};  // between warnings of one reason
+constexpr double kMegabyte = 1e6;
+
+/// Parameters of others that live in our namespace.
+bool isForeignParameter(const std::string& name) { return name == "diagnostic_period"; }
+
+double physicalMemoryBytes() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+void MappingNodelet::onInit() {
+  try {
+    configureFromParameters();
+    handle_ = std::make_shared<MapHandle>(getName());
+    mapping_ = std::make_unique<MappingThread>(mapper_config_, node_config_, handle_, this);
+  } catch (const std::exception& error) {
+    NODELET_FATAL("%s", error.what());
+    throw;
+  }
+  logStart(mapping_->mapper());
+  inputs_ = std::make_unique<InputSubscriber>(getNodeHandle(), node_config_, mapping_.get());
+  advertise();
+  MapRegistry::add(handle_);
+  mapping_->start();
+}
+
+MappingNodelet::~MappingNodelet() {
+  if (!mapping_) return;
+  // Nothing may call back any more before that goes which callbacks use. The mapping thread stops
+  // first: a reset service that waits for it returns then.
+  mapping_->stop();
+  diagnostics_timer_.stop();
+  for (ros::ServiceServer& service : services_) service.shutdown();
+}
+
+void MappingNodelet::configureFromParameters() {
+  const ParameterMap values = parameterMapFromRos(getPrivateNodeHandle());
+  for (const std::string& name : configure(values, &mapper_config_, &node_config_)) {
+    if (isForeignParameter(name)) continue;
+    NODELET_WARN("parameter %s is unknown and has no effect", name.c_str());
+  }
+}
+
+void MappingNodelet::logStart(const Mapper& mapper) {
+  const VoxelIndex size = mapper.grid().window().size();
+  const double memory = static_cast<double>(mapper.grid().worstCaseMemoryBytes());
+  NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, at most %.0f MB when all is seen",
+               mapper_config_.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
+  NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels",
+               mapper_config_.inflation_radius,
+               mapper_config_.inflation_radius / mapper_config_.resolution,
+               mapper_config_.structuringElement().reach());
+  NODELET_INFO("a voxel is occupied after %d hits, cleared after at most %d misses",
+               mapper.logOdds().hitsToOccupy(), mapper.logOdds().missesToClear());
+  if (memory > physicalMemoryBytes()) {
+    NODELET_WARN(
+        "the map may grow beyond this machine's memory: lower map_size_x/y/z or raise "
+        "resolution");
+  }
+}
+
+void MappingNodelet::advertise() {
+  ros::NodeHandle& node = getPrivateNodeHandle();
+  statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue);
+  handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue);
+  clouds_ =
+      std::make_unique<CloudPublisher>(node, node_config_.map_frame, node_config_.publish_rate);
+  diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
+                                                      [this] { return mapping_->counters(); });
+
+  // Services may wait or write files, so they must not hold up the input callbacks.
+  ros::NodeHandle& concurrent_node = getMTPrivateNodeHandle();
+  services_.push_back(
+      concurrent_node.advertiseService("reset", &MappingNodelet::onResetService, this));
+  services_.push_back(
+      concurrent_node.advertiseService("save_map", &MappingNodelet::onSaveService, this));
+  diagnostics_timer_ = getMTNodeHandle().createWallTimer(
+      ros::WallDuration(kDiagnosticsPeriod),
+      [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
+}
+
+bool MappingNodelet::onResetService(std_srvs::Trigger::Request&,
+                                    std_srvs::Trigger::Response& response) {
+  response.success = mapping_->reset();
+  response.message = response.success ? "the map is empty" : "the node is shutting down";
+  return true;
+}
+
+bool MappingNodelet::onSaveService(SaveMap::Request& request, SaveMap::Response& response) {
+  const std::lock_guard<std::mutex> lock(save_mutex_);
+  try {
+    const std::shared_ptr<const Snapshot> snapshot = handle_->latest();
+    if (!snapshot) throw std::runtime_error("there is no map yet");
+    response.message = saveMap(*snapshot, node_config_.save_directory, request.name);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = false;
+  }
+  return true;
+}
+
+void MappingNodelet::onDiagnosticsTimer() {
+  const std::string missing = diagnostics_->publish();
+  if (!missing.empty()) NODELET_WARN_DELAYED_THROTTLE(kMissingInputPeriod, "%s", missing.c_str());
+}
+
+void MappingNodelet::onUpdate(const MapUpdate& update) {
+  const Snapshot& snapshot = *update.snapshot;
+  const std::string& frame = node_config_.map_frame;
+  const auto message = boost::make_shared<MapHandleMessage>();
+  message->info = toMapInfo(snapshot, handle_->id(), frame);
+  message->handle = handle_;
+  handle_publisher_.publish(message);
+  statistics_publisher_.publish(boost::make_shared<Statistics>(toStatistics(update, frame)));
+
+  const VoxelBox update_range =
+      VoxelLattice::boxAround(snapshot.lattice().indexOf(update.pose.vehicle_W),
+                              snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()));
+  clouds_->offer(update.snapshot, update_range.intersection(snapshot.window()));
+  diagnostics_->onUpdate(update);
+}
+
+void MappingNodelet::onReset(const std::string& why) {
+  NODELET_WARN("the map was forgotten: %s", why.c_str());
+  clouds_->clear();
+  diagnostics_->onReset();
+}
+
+void MappingNodelet::onDrop(const Drop& drop) {
+  const auto now = std::chrono::steady_clock::now();
+  const auto last = warned_.find(drop.reason);
+  if (last != warned_.end() && now - last->second < kDropPeriod) return;
+  warned_[drop.reason] = now;
+  NODELET_WARN("scan dropped: %s", drop.text().c_str());
+}
+
+void MappingNodelet::onWarning(const std::string& text) { NODELET_WARN("%s", text.c_str()); }
+
+}  // namespace fiimap
+
+PLUGINLIB_EXPORT_CLASS(fiimap::MappingNodelet, nodelet::Nodelet)

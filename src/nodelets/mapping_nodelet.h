@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <fiimap/SaveMap.h>
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include "cloud_publisher.h"
+#include "fiimap/map_handle.h"
+#include "fiimap/ros/node_config.h"
+#include "input_subscriber.h"
+#include "mapping_diagnostics.h"
+#include "mapping_thread.h"
+
+namespace fiimap {
+
+/// The map as a nodelet: topics and services around a MappingThread. Callbacks only enqueue; the
+/// map is made in the mapping thread and published as clouds in the publisher's thread.
+class MappingNodelet : public nodelet::Nodelet, private MapObserver {
+ public:
+  MappingNodelet() = default;
+  /// Stops and joins everything; may be called at any moment.
+  ~MappingNodelet() override;
+
+ private:
+  /// \throws std::invalid_argument on a bad configuration, so that loading fails.
+  void onInit() override;
+  void configureFromParameters();
+  void logStart(const Mapper& mapper);
+  void advertise();
+
+  bool onResetService(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onSaveService(SaveMap::Request& request, SaveMap::Response& response);
+  void onDiagnosticsTimer();
+
+  // MapObserver, on the mapping thread.
+  void onUpdate(const MapUpdate& update) override;
+  void onReset(const std::string& why) override;
+  void onDrop(const Drop& drop) override;
+  void onWarning(const std::string& text) override;
+
+  MapperConfig mapper_config_;
+  NodeConfig node_config_;
+  std::shared_ptr<MapHandle> handle_;
+  std::map<DropReason, std::chrono::steady_clock::time_point> warned_;  // mapping thread only
+
+  ros::Publisher statistics_publisher_;
+  ros::Publisher handle_publisher_;
+  std::unique_ptr<CloudPublisher> clouds_;
+  std::unique_ptr<MappingThread> mapping_;
+  std::unique_ptr<InputSubscriber> inputs_;
+  std::unique_ptr<MappingDiagnostics> diagnostics_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer diagnostics_timer_;
+  std::mutex save_mutex_;
+};
+
+}  // namespace fiimap

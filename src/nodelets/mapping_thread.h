@@ -1,0 +1,108 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "fiimap/map_handle.h"
+#include "fiimap/mapper.h"
+#include "fiimap/ros/scan_counters.h"
+#include "fiimap/ros/scan_decoder.h"
+#include "fiimap/ros/scan_synchronizer.h"
+#include "input_queue.h"
+
+namespace fiimap {
+
+/// The map after a scan, and what the scan did.
+struct MapUpdate {
+  ScanPose pose;
+  double pose_gap = 0.0;  ///< s between the poses around the scan
+  ScanReport report;
+  double decode_ms = 0.0;
+  std::shared_ptr<const Snapshot> snapshot;
+  std::size_t memory_bytes = 0;
+  ScanCounters counters;
+};
+
+/// Hears of the map; called on the mapping thread.
+class MapObserver {
+ public:
+  virtual ~MapObserver() = default;
+
+  virtual void onUpdate(const MapUpdate& update) = 0;
+  /// Everything was forgotten.
+  virtual void onReset(const std::string& why) = 0;
+  virtual void onDrop(const Drop& drop) = 0;
+  virtual void onWarning(const std::string& text) = 0;
+};
+
+/// Owns the Mapper and the one thread that works with it. Its public methods may be called from any
+/// thread; they only enqueue, except reset().
+class MappingThread : private ScanListener {
+ public:
+  /// \param handle where readers get the snapshots; \param observer must outlive this object.
+  /// \throws std::invalid_argument when the configuration is not valid.
+  MappingThread(const MapperConfig& mapper_config, const NodeConfig& node_config,
+                std::shared_ptr<MapHandle> handle, MapObserver* observer);
+  ~MappingThread() override { stop(); }
+
+  void start();
+  /// Stops after the scan that is being integrated; other input is forgotten, now and later. No
+  /// observer is called any more when this returns.
+  void stop();
+
+  /// The mapper, for questions before start().
+  const Mapper& mapper() const { return mapper_; }
+
+  void addScan(const ScanMessage& scan);
+  /// Enqueues anything else that the synchronizer takes.
+  void post(std::function<void(ScanSynchronizer*)> input);
+
+  /// Forgets the map and waits until that is done. \return false when the thread is stopping.
+  bool reset();
+
+  /// Copy of the counters as of the last step.
+  ScanCounters counters() const;
+
+ private:
+  void run();
+  void step();
+  void integrateNext();
+  void checkClock();
+  void forget(const std::string& why);
+  void drop(const Drop& drop);
+  void publishCounters();
+
+  void onScan(const SynchronizedScan& scan) override;
+  void onDrop(const Drop& drop) override { this->drop(drop); }
+  void onTimeJump(const std::string& what) override;
+  void onWarning(const std::string& text) override { observer_->onWarning(text); }
+
+  NodeConfig config_;
+  std::shared_ptr<MapHandle> handle_;
+  MapObserver* observer_;
+
+  // Of the mapping thread alone.
+  Mapper mapper_;
+  ScanSynchronizer synchronizer_;
+  ScanDecoder decoder_;
+  ScanCounters counters_;
+  std::deque<SynchronizedScan> ready_;
+
+  std::mutex clock_mutex_;
+  ros::Time clock_;  // newest time seen
+
+  mutable std::mutex counters_mutex_;
+  ScanCounters published_counters_;
+
+  std::atomic<bool> stopping_{false};
+  InputQueue queue_;
+  std::thread thread_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,116 @@
+#include "fiimap/ros/map_messages.h"
+
+#include <cstring>
+#include <vector>
+
+namespace fiimap {
+namespace {
+
+static_assert(static_cast<int>(ElementShape::kBall) == MapInfo::SHAPE_BALL &&
+                  static_cast<int>(ElementShape::kCube) == MapInfo::SHAPE_CUBE &&
+                  static_cast<int>(ElementShape::kDiamond) == MapInfo::SHAPE_DIAMOND,
+              "the message's constants must follow ElementShape");
+
+constexpr std::uint32_t kPointBytes = 3 * sizeof(float);
+constexpr double kLineWidth = 0.05;  // m
+
+void addField(const std::string& name, std::uint32_t offset, sensor_msgs::PointCloud2* cloud) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = offset;
+  field.datatype = sensor_msgs::PointField::FLOAT32;
+  field.count = 1;
+  cloud->fields.push_back(field);
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+}  // namespace
+
+std_msgs::Header toHeader(const Snapshot& snapshot, const std::string& map_frame) {
+  std_msgs::Header header;
+  header.stamp.fromNSec(static_cast<std::uint64_t>(snapshot.info().stamp_ns));
+  header.frame_id = map_frame;
+  return header;
+}
+
+MapInfo toMapInfo(const Snapshot& snapshot, const std::string& id, const std::string& map_frame) {
+  const Snapshot::Info& info = snapshot.info();
+  MapInfo message;
+  message.header = toHeader(snapshot, map_frame);
+  message.id = id;
+  message.sequence = info.sequence;
+  message.resolution = info.resolution;
+  for (int axis = 0; axis < 3; ++axis) {
+    message.window_min[axis] = info.window.min[axis];
+    message.window_max[axis] = info.window.max[axis];
+  }
+  message.inflation_radius = info.inflation_radius;
+  message.inflation_shape = static_cast<std::uint8_t>(info.inflation_shape);
+  return message;
+}
+
+sensor_msgs::PointCloud2 emptyCloud(const std_msgs::Header& header) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header;
+  cloud.height = 1;
+  cloud.point_step = kPointBytes;
+  cloud.is_dense = true;
+  addField("x", 0, &cloud);
+  addField("y", sizeof(float), &cloud);
+  addField("z", 2 * sizeof(float), &cloud);
+  return cloud;
+}
+
+sensor_msgs::PointCloud2 toPointCloud(const Snapshot& snapshot, Plane plane,
+                                      const std::string& map_frame) {
+  const std::vector<VoxelIndex> voxels = snapshot.voxels(plane, snapshot.window());
+  sensor_msgs::PointCloud2 cloud = emptyCloud(toHeader(snapshot, map_frame));
+  cloud.width = static_cast<std::uint32_t>(voxels.size());
+  cloud.row_step = cloud.width * kPointBytes;
+  cloud.data.resize(cloud.row_step);
+  std::uint8_t* out = cloud.data.data();
+  for (const VoxelIndex& v : voxels) {
+    const Eigen::Vector3f center = snapshot.lattice().centerOf(v).cast<float>();
+    std::memcpy(out, center.data(), kPointBytes);
+    out += kPointBytes;
+  }
+  return cloud;
+}
+
+visualization_msgs::Marker toOutline(const VoxelBox& box, const Snapshot& snapshot,
+                                     const std::string& map_frame, const std::string& name) {
+  visualization_msgs::Marker marker;
+  marker.header = toHeader(snapshot, map_frame);
+  marker.ns = name;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = kLineWidth;
+  marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1.0F;
+  const double resolution = snapshot.lattice().resolution();
+  const Eigen::Vector3d corners[2] = {box.min.cast<double>() * resolution,
+                                      box.max.cast<double>() * resolution};
+  // An edge joins two corners, numbered by a bit per axis, that differ in one bit.
+  const auto corner = [&corners](int bits) {
+    return toPoint(
+        {corners[bits & 1].x(), corners[(bits >> 1) & 1].y(), corners[(bits >> 2) & 1].z()});
+  };
+  for (int from = 0; from < 8; ++from) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int to = from | (1 << axis);
+      if (to == from) continue;
+      marker.points.push_back(corner(from));
+      marker.points.push_back(corner(to));
+    }
+  }
+  return marker;
+}
+
+}  // namespace fiimap

@@ -1,0 +1,109 @@
+#include "fiimap/ros/parameter_sources.h"
+
+#include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+namespace fiimap {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw std::invalid_argument("parameter " + name + ": " + what);
+}
+
+/// The shortest text that reads back as the same number.
+std::string toText(double value) {
+  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(digits);
+    text << value;
+    std::istringstream back(text.str());
+    back.imbue(std::locale::classic());
+    double read = 0.0;
+    back >> read;
+    if (read == value || digits >= std::numeric_limits<double>::max_digits10) return text.str();
+  }
+}
+
+std::string toText(const std::string& name, XmlRpc::XmlRpcValue value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return toText(static_cast<double>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    case XmlRpc::XmlRpcValue::TypeArray: {
+      std::string joined;
+      for (int i = 0; i < value.size(); ++i) joined += (i > 0 ? " " : "") + toText(name, value[i]);
+      return joined;
+    }
+    default:
+      refuse(name, "must be a number, text, true or false, or a list of numbers");
+  }
+}
+
+/// YAML's plain yes, on, True, ... as rosparam understands them.
+std::string toText(const YAML::Node& scalar) {
+  const std::string text = scalar.Scalar();
+  const bool quoted = scalar.Tag() == "!";
+  if (quoted) return text;
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (lower == "true" || lower == "yes" || lower == "on") return "true";
+  if (lower == "false" || lower == "no" || lower == "off") return "false";
+  return text;
+}
+
+std::string toText(const std::string& name, const YAML::Node& node) {
+  if (node.IsScalar()) return toText(node);
+  if (!node.IsSequence()) refuse(name, "must be a number, text, true or false, or a list");
+  std::string joined;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    joined += (i > 0 ? " " : "") + toText(name, node[i]);
+  }
+  return joined;
+}
+
+}  // namespace
+
+ParameterMap parameterMapFromRos(const ros::NodeHandle& node) {
+  ParameterMap values;
+  XmlRpc::XmlRpcValue all;
+  const bool found = node.getParam(node.getNamespace(), all);
+  if (!found || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return values;
+  for (auto& [name, value] : all) {
+    // No parameter is a namespace; the name alone lets the caller say that it is unknown.
+    const bool is_namespace = value.getType() == XmlRpc::XmlRpcValue::TypeStruct;
+    values[name] = is_namespace ? "" : toText(name, value);
+  }
+  return values;
+}
+
+ParameterMap parameterMapFromYaml(const std::string& file) {
+  ParameterMap values;
+  try {
+    const YAML::Node all = YAML::LoadFile(file);
+    if (all.IsNull()) return values;
+    if (!all.IsMap()) throw std::invalid_argument("must hold 'name: value' lines");
+    for (const auto& entry : all) {
+      const std::string name = entry.first.as<std::string>();
+      values[name] = entry.second.IsMap() ? "" : toText(name, entry.second);
+    }
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(file + ": " + error.what());
+  }
+  return values;
+}
+
+}  // namespace fiimap

@@ -1,0 +1,182 @@
+#include "fiimap/ros/pose_resolver.h"
+
+#include <limits>
+
+#include "fiimap/ros/frame_id.h"
+#include "fiimap/ros/stamps.h"
+
+namespace fiimap {
+namespace {
+
+std::string secondsText(const ros::Time& from, const ros::Time& to) {
+  return std::to_string(secondsBetween(from, to)) + " s";
+}
+
+geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header,
+                                            const std::string& child_frame,
+                                            const geometry_msgs::Pose& pose) {
+  geometry_msgs::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = child_frame;
+  transform.transform.translation.x = pose.position.x;
+  transform.transform.translation.y = pose.position.y;
+  transform.transform.translation.z = pose.position.z;
+  transform.transform.rotation = pose.orientation;
+  return transform;
+}
+
+ResolvedPose unresolved(ResolvedPose::State state, const Drop& why) {
+  ResolvedPose resolved;
+  resolved.state = state;
+  resolved.why = why;
+  return resolved;
+}
+
+ResolvedPose withoutPose(PoseLookup lookup, const std::string& detail) {
+  using State = ResolvedPose::State;
+  switch (lookup) {
+    case PoseLookup::kTooOld:
+      return unresolved(State::kImpossible, {DropReason::kPoseTooOld, detail});
+    case PoseLookup::kGap:
+      return unresolved(State::kImpossible, {DropReason::kPoseGap, detail});
+    default:
+      return unresolved(State::kPending, {DropReason::kPoseTimeout, detail});
+  }
+}
+
+ResolvedPose resolved(const Eigen::Isometry3d& T_W_S, const Eigen::Vector3d& vehicle_W,
+                      double gap) {
+  ResolvedPose pose;
+  pose.state = ResolvedPose::State::kFound;
+  pose.T_W_S = T_W_S;
+  pose.vehicle_W = vehicle_W;
+  pose.gap = gap;
+  return pose;
+}
+
+bool isNearIdentity(const Eigen::Matrix3d& rotation) {
+  constexpr double kTolerance = 0.05;  // rad
+  return Eigen::AngleAxisd(rotation).angle() < kTolerance;
+}
+
+constexpr double kAnyGap = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+PoseResolver::PoseResolver(const NodeConfig& config)
+    : config_(config),
+      history_(config.pose_history, config.max_pose_gap),
+      tree_(config.pose_history) {}
+
+void PoseResolver::add(const nav_msgs::Odometry& odometry) {
+  add(toTransform(odometry.header, odometry.child_frame_id, odometry.pose.pose));
+}
+
+void PoseResolver::add(const geometry_msgs::PoseStamped& pose) {
+  add(toTransform(pose.header, "", pose.pose));
+}
+
+void PoseResolver::add(const geometry_msgs::TransformStamped& transform) {
+  try {
+    const std::string frame = plainFrame(transform.header.frame_id);
+    if (frame != config_.map_frame) {
+      throw InputError(
+          DropReason::kFrameMismatch,
+          "poses are in frame '" + frame + "', map_frame is '" + config_.map_frame + "'");
+    }
+    history_.add(transform);
+    refused_.reset();
+  } catch (const InputError& error) {
+    refused_ = error.drop();
+    ++refused_poses_;
+  }
+}
+
+void PoseResolver::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
+  for (const auto& transform : transforms.transforms) tree_.add(transform, is_static);
+}
+
+void PoseResolver::clear() {
+  history_.clear();
+  tree_.clear();
+  refused_.reset();
+}
+
+ResolvedPose PoseResolver::at(const std::string& sensor_frame, const ros::Time& stamp) const {
+  if (config_.pose_source == PoseSource::kTf) {
+    return config_.extrinsics == ExtrinsicsSource::kTf ? sensorFromTf(sensor_frame, stamp)
+                                                       : bodyFromTf(sensor_frame, stamp);
+  }
+  const PoseAtStamp body = history_.at(stamp);
+  if (body.lookup != PoseLookup::kFound) return withoutMessage(body, stamp);
+  const bool named = !config_.body_frame.empty();
+  return sensorOnBody(body.T_W_B, body.gap,
+                      named ? config_.body_frame : plainFrame(body.body_frame), sensor_frame,
+                      stamp);
+}
+
+ResolvedPose PoseResolver::withoutMessage(const PoseAtStamp& pose, const ros::Time& stamp) const {
+  switch (pose.lookup) {
+    case PoseLookup::kTooOld:
+      return withoutPose(pose.lookup, "the scan is " + secondsText(stamp, newestPose()) +
+                                          " older than the newest pose");
+    case PoseLookup::kGap:
+      return withoutPose(pose.lookup,
+                         "the poses around the scan are " + std::to_string(pose.gap) + " s apart");
+    default:
+      break;
+  }
+  if (refused_) return unresolved(ResolvedPose::State::kPending, *refused_);
+  return withoutPose(pose.lookup, history_.empty()
+                                      ? "no pose was received"
+                                      : "the newest pose is " + secondsText(newestPose(), stamp) +
+                                            " older than the scan");
+}
+
+ResolvedPose PoseResolver::sensorOnBody(const Eigen::Isometry3d& T_W_B, double gap,
+                                        const std::string& body_frame,
+                                        const std::string& sensor_frame,
+                                        const ros::Time& stamp) const {
+  Eigen::Isometry3d T_B_S = config_.parameterExtrinsics();
+  if (config_.extrinsics == ExtrinsicsSource::kTf) {
+    const TransformAtStamp extrinsics = tree_.at(body_frame, sensor_frame, stamp, kAnyGap);
+    if (extrinsics.lookup != PoseLookup::kFound) {
+      const bool pending = extrinsics.lookup == PoseLookup::kNotYet;
+      return unresolved(pending ? ResolvedPose::State::kPending : ResolvedPose::State::kImpossible,
+                        {DropReason::kNoExtrinsics, "no transform from sensor frame '" +
+                                                        sensor_frame + "' to body frame '" +
+                                                        body_frame + "': " + extrinsics.why});
+    }
+    T_B_S = extrinsics.T_target_source;
+  }
+  ResolvedPose pose = resolved(T_W_B * T_B_S, T_W_B.translation(), gap);
+  pose.sensor_axes_like_body = isNearIdentity(T_B_S.linear());
+  return pose;
+}
+
+ResolvedPose PoseResolver::bodyFromTf(const std::string& sensor_frame,
+                                      const ros::Time& stamp) const {
+  const TransformAtStamp body =
+      tree_.at(config_.map_frame, config_.body_frame, stamp, config_.max_pose_gap);
+  if (body.lookup != PoseLookup::kFound) return withoutPose(body.lookup, body.why);
+  return sensorOnBody(body.T_target_source, body.gap, config_.body_frame, sensor_frame, stamp);
+}
+
+ResolvedPose PoseResolver::sensorFromTf(const std::string& sensor_frame,
+                                        const ros::Time& stamp) const {
+  const TransformAtStamp sensor =
+      tree_.at(config_.map_frame, sensor_frame, stamp, config_.max_pose_gap);
+  if (sensor.lookup != PoseLookup::kFound) return withoutPose(sensor.lookup, sensor.why);
+  const Eigen::Isometry3d& T_W_S = sensor.T_target_source;
+  if (config_.body_frame.empty()) return resolved(T_W_S, T_W_S.translation(), sensor.gap);
+
+  const TransformAtStamp body =
+      tree_.at(config_.map_frame, config_.body_frame, stamp, config_.max_pose_gap);
+  if (body.lookup != PoseLookup::kFound) return withoutPose(body.lookup, body.why);
+  const Eigen::Isometry3d& T_W_B = body.T_target_source;
+  ResolvedPose pose = resolved(T_W_S, T_W_B.translation(), sensor.gap);
+  pose.sensor_axes_like_body = isNearIdentity(T_W_B.linear().transpose() * T_W_S.linear());
+  return pose;
+}
+
+}  // namespace fiimap

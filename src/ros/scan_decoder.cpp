@@ -1,0 +1,37 @@
+#include "fiimap/ros/scan_decoder.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "fiimap/ros/message_conversions.h"
+
+namespace fiimap {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+ScanReport ScanDecoder::integrate(const SynchronizedScan& scan, Mapper* mapper) {
+  const Clock::time_point start = Clock::now();
+  // What the mapper itself refuses after decoding can only be the pose.
+  try {
+    if (const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message)) {
+      const DecodedDepthImage decoded = decodeDepthImage(*image);
+      decode_time_ms_ = millisecondsSince(start);
+      return mapper->integrate(decoded.view, scan.intrinsics, scan.pose);
+    }
+    const auto& cloud = std::get<sensor_msgs::PointCloud2ConstPtr>(scan.message);
+    decodePointCloud(*cloud, mapper->config().pixel_step, &points_);
+    decode_time_ms_ = millisecondsSince(start);
+    return mapper->integrate(points_, scan.pose);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(DropReason::kBadPose, error.what());
+  }
+}
+
+}  // namespace fiimap

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fiimap {
+
+/// `fiimap_eval run`: builds the map of a bag as the nodelet would, as fast as it can.
+struct RunOptions {
+  std::string bag;
+  std::string config;                 ///< YAML file; empty: defaults
+  std::vector<std::string> settings;  ///< "name=value", after the file
+  std::string json;                   ///< where to write the figures; empty: nowhere
+  int verify = 0;                     ///< compare with brute force at every n-th scan; 0: never
+};
+
+/// \return 0; 1 when a comparison failed or no scan could be integrated.
+/// \throws std::exception with a message for the user when input or settings are bad.
+int run(const RunOptions& options);
+
+/// `fiimap_eval parameters`: prints name, default, unit, allowed values and meaning of every
+/// parameter, separated by tabs.
+void printParameters();
+
+}  // namespace fiimap
