@@ -34,17 +34,17 @@ SlidingGrid::SlidingGrid(const VoxelIndex& size)
 void SlidingGrid::moveTo(const VoxelIndex& min, ChangeSet* changes) {
   const VoxelBox target{min, min + size_};
   if (target == window_) return;
-  const VoxelBox kept = target.intersection(window_);
   for (int axis = 0; axis < 3; ++axis) {
+    if (min[axis] == window_.min[axis]) continue;
     VoxelBox entered = target;
-    if (kept.empty() || min[axis] == window_.min[axis]) continue;
     if (min[axis] > window_.min[axis]) {
-      entered.min[axis] = kept.max[axis];
+      entered.min[axis] = std::max(target.min[axis], window_.max[axis]);
     } else {
-      entered.max[axis] = kept.min[axis];
+      entered.max[axis] = std::min(target.max[axis], window_.min[axis]);
     }
     changes->entered.push_back(entered);
   }
+  const VoxelBox kept = target.intersection(window_);
   // A copy, because dropping a tile edits the list.
   const std::vector<int> slots = live_;
   for (const int slot : slots) {

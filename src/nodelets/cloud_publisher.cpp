@@ -20,7 +20,7 @@ CloudPublisher::CloudPublisher(ros::NodeHandle node, const std::string& map_fram
     : map_frame_(map_frame),
       period_(
           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))) {
-  const auto on_subscriber = [this](const ros::SingleSubscriberPublisher&) { wake(); };
+  const auto on_subscriber = [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); };
   occupied_ = node.advertise<sensor_msgs::PointCloud2>("occupied", kCloudQueue, on_subscriber);
   inflated_ = node.advertise<sensor_msgs::PointCloud2>("inflated", kCloudQueue, on_subscriber);
   window_ = node.advertise<visualization_msgs::Marker>("window", kMarkerQueue, on_subscriber);
@@ -49,10 +49,10 @@ void CloudPublisher::offer(std::shared_ptr<const Snapshot> snapshot, const Voxel
 
 void CloudPublisher::clear() { offer(nullptr, VoxelBox()); }
 
-void CloudPublisher::wake() {
+void CloudPublisher::onSubscriber() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    news_ = true;
+    news_ = news_ || snapshot_;
   }
   changed_.notify_all();
 }

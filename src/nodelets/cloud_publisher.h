@@ -31,7 +31,7 @@ class CloudPublisher {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void wake();
+  void onSubscriber();
   void run();
   void publish(const Snapshot& snapshot, const VoxelBox& update_box);
   void publishCloud(const ros::Publisher& publisher, const Snapshot& snapshot, Plane plane) const;

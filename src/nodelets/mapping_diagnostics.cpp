@@ -135,9 +135,11 @@ void MappingDiagnostics::reportMap(Status& status) {
 
 void MappingDiagnostics::addUpdate(const MapUpdate& update, Status* status) {
   const ReadingCount& readings = update.report.readings;
-  const double within_range =
-      readings.total > 0 ? static_cast<double>(kPercent * readings.returns) / readings.total : 0.0;
-  status->addf("readings within range [%]", "%.1f", within_range);
+  const auto share = [&readings](std::size_t count) {
+    return readings.total > 0 ? static_cast<double>(kPercent * count) / readings.total : 0.0;
+  };
+  status->addf("readings valid [%]", "%.1f", share(readings.total - readings.invalid));
+  status->addf("readings within range [%]", "%.1f", share(readings.returns));
   status->add("rays with a hit", update.report.rays.hits);
   status->add("rays without a hit", update.report.rays.misses);
   status->add("changed voxels", update.report.changeScore());

@@ -36,7 +36,8 @@ void MappingNodelet::onInit() {
   try {
     configureFromParameters();
     handle_ = std::make_shared<MapHandle>(getName());
-    mapping_ = std::make_unique<MappingThread>(mapper_config_, node_config_, handle_, this);
+    MapObserver* const observer = this;
+    mapping_ = std::make_unique<MappingThread>(mapper_config_, node_config_, handle_, observer);
   } catch (const std::exception& error) {
     NODELET_FATAL("%s", error.what());
     throw;
@@ -126,7 +127,8 @@ bool MappingNodelet::onSaveService(SaveMap::Request& request, SaveMap::Response&
 
 void MappingNodelet::onDiagnosticsTimer() {
   const std::string missing = diagnostics_->publish();
-  if (!missing.empty()) NODELET_WARN_DELAYED_THROTTLE(kMissingInputPeriod, "%s", missing.c_str());
+  if (missing.empty()) return;
+  ROS_WARN_DELAYED_THROTTLE_NAMED(kMissingInputPeriod, getName(), "%s", missing.c_str());
 }
 
 void MappingNodelet::onUpdate(const MapUpdate& update) {

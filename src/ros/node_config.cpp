@@ -1,7 +1,7 @@
 #include "fiimap/ros/node_config.h"
 
+#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -27,7 +27,7 @@ std::string joinNumbers(const Vector& vector) {
   return text.str();
 }
 
-/// A list of as many numbers as `field` has, separated by spaces.
+/// A list of as many numbers as `field` has: "1 2 3", or as on command lines "[1, 2, 3]".
 template <typename Vector>
 Parameter vectorParameter(const std::string& name, Vector* field, const std::string& unit,
                           const std::string& meaning) {
@@ -38,7 +38,11 @@ Parameter vectorParameter(const std::string& name, Vector* field, const std::str
           meaning,
           [field] { return joinNumbers(*field); },
           [name, field, allowed](const std::string& text) {
-            std::istringstream stream(text);
+            std::string numbers = text;
+            for (const char separator : {'[', ',', ']'}) {
+              std::replace(numbers.begin(), numbers.end(), separator, ' ');
+            }
+            std::istringstream stream(numbers);
             stream.imbue(std::locale::classic());
             Vector vector;
             for (int i = 0; i < vector.size(); ++i) stream >> vector[i];

@@ -55,8 +55,7 @@ void PoseHistory::add(const geometry_msgs::TransformStamped& pose) {
 PoseAtStamp PoseHistory::at(const ros::Time& stamp) const {
   PoseAtStamp pose;
   if (empty() || stamp > newest()) return pose;
-  const ros::Time oldest = cache_->getOldestTime();
-  if (stamp < oldest || secondsBetween(stamp, newest()) > history_) {
+  if (stamp < oldest() || secondsBetween(stamp, newest()) > history_) {
     pose.lookup = PoseLookup::kTooOld;
     return pose;
   }

@@ -118,8 +118,9 @@ ResolvedPose PoseResolver::at(const std::string& sensor_frame, const ros::Time& 
 ResolvedPose PoseResolver::withoutMessage(const PoseAtStamp& pose, const ros::Time& stamp) const {
   switch (pose.lookup) {
     case PoseLookup::kTooOld:
-      return withoutPose(pose.lookup, "the scan is " + secondsText(stamp, newestPose()) +
-                                          " older than the newest pose");
+      return withoutPose(pose.lookup, "poses are known from " +
+                                          secondsText(stamp, history_.oldest()) + " to " +
+                                          secondsText(stamp, newestPose()) + " after the scan");
     case PoseLookup::kGap:
       return withoutPose(pose.lookup,
                          "the poses around the scan are " + std::to_string(pose.gap) + " s apart");

@@ -1,8 +1,7 @@
 #include "fiimap/ros/transform_tree.h"
 
-#include <tf2/exceptions.h>
-
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <vector>
 
@@ -15,6 +14,12 @@ namespace {
 
 const char* const kAuthority = "tf";
 
+/// tf2's texts end with a full stop and a blank, which do not fit into a sentence.
+std::string withoutEnd(std::string text) {
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 TransformTree::TransformTree(double history) : history_(history), buffer_(ros::Duration(history)) {}
@@ -23,25 +28,32 @@ void TransformTree::add(const geometry_msgs::TransformStamped& message, bool is_
   geometry_msgs::TransformStamped transform = message;
   transform.header.frame_id = plainFrame(message.header.frame_id);
   transform.child_frame_id = plainFrame(message.child_frame_id);
-  const std::string& child = transform.child_frame_id;
   // What tf2 would refuse with a message on the console.
-  if (child.empty() || transform.header.frame_id.empty()) return;
-  if (child == transform.header.frame_id) return;
+  const std::string& child = transform.child_frame_id;
+  const std::string& parent = transform.header.frame_id;
+  if (child.empty() || parent.empty() || child == parent) return;
   try {
-    decodeTransform(transform.transform);
-  } catch (const InputError&) {
-    return;
-  }
-  if (!is_static) {
-    const ros::Time& stamp = transform.header.stamp;
-    std::set<ros::Time>& stamps = stamps_[child];
-    const bool too_old = !stamps.empty() && secondsBetween(stamp, *stamps.rbegin()) > history_;
-    if (too_old || !stamps.insert(stamp).second) return;
-    while (secondsBetween(*stamps.begin(), *stamps.rbegin()) > history_) {
-      stamps.erase(stamps.begin());
+    const Eigen::Quaterniond rotation(decodeTransform(transform.transform).linear());
+    transform.transform.rotation.x = rotation.x();
+    transform.transform.rotation.y = rotation.y();
+    transform.transform.rotation.z = rotation.z();
+    transform.transform.rotation.w = rotation.w();
+    if (is_static || remember(child, transform.header.stamp)) {
+      buffer_.setTransform(transform, kAuthority, is_static);
     }
+  } catch (const std::exception&) {
+    // Not finite, not a rotation, or a stamp beyond ros::Time.
   }
-  buffer_.setTransform(transform, kAuthority, is_static);
+}
+
+bool TransformTree::remember(const std::string& child, const ros::Time& stamp) {
+  std::set<ros::Time>& stamps = stamps_[child];
+  const bool too_old = !stamps.empty() && secondsBetween(stamp, *stamps.rbegin()) > history_;
+  if (too_old || !stamps.insert(stamp).second) return false;
+  while (secondsBetween(*stamps.begin(), *stamps.rbegin()) > history_) {
+    stamps.erase(stamps.begin());
+  }
+  return true;
 }
 
 void TransformTree::clear() {
@@ -61,16 +73,15 @@ TransformAtStamp TransformTree::at(const std::string& target, const std::string&
     newest = buffer_.lookupTransform(target, source, ros::Time()).header.stamp;
     found.T_target_source =
         decodeTransform(buffer_.lookupTransform(target, source, stamp).transform);
-    found.lookup = PoseLookup::kFound;
-  } catch (const tf2::TransformException& error) {
-    found.why = error.what();
+    found.gap = largestGap(target, source, stamp);
+  } catch (const std::exception& error) {
     const bool connected = !newest.isZero();
     found.lookup = connected && stamp < newest ? PoseLookup::kTooOld : PoseLookup::kNotYet;
+    found.why = withoutEnd(error.what());
     return found;
   }
-  found.gap = largestGap(target, source, stamp);
-  if (found.gap > max_gap) {
-    found.lookup = PoseLookup::kGap;
+  found.lookup = found.gap > max_gap ? PoseLookup::kGap : PoseLookup::kFound;
+  if (found.lookup == PoseLookup::kGap) {
     found.why = "transforms from " + source + " to " + target + " are " +
                 std::to_string(found.gap) + " s apart";
   }

@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   run->add_option("--set", options.settings, "name=value, overrides the file; may be repeated");
   run->add_option("--json", options.json, "Write the figures to this file");
+  run->add_option("--save", options.save,
+                  "Write the final map to PREFIX_occupied.pcd, PREFIX_inflated.pcd and PREFIX.bt");
   run->add_option("--verify", options.verify,
                   "Compare the inflated layer with brute force at every N-th scan")
       ->check(CLI::PositiveNumber);

@@ -12,6 +12,7 @@
 #include "bag_player.h"
 #include "bag_topics.h"
 #include "fiimap/mapper.h"
+#include "fiimap/ros/map_files.h"
 #include "fiimap/ros/node_config.h"
 #include "fiimap/ros/parameter_sources.h"
 #include "fiimap/ros/scan_decoder.h"
@@ -175,6 +176,11 @@ int run(const RunOptions& options) {
     json["warnings"] = builder.warnings();
     json["parameters"] = describe(&settings);
     writeJson(options.json, json);
+  }
+  if (!options.save.empty()) {
+    writePcd(builder.snapshot(), Plane::kOccupied, options.save + "_occupied.pcd");
+    writePcd(builder.snapshot(), Plane::kInflated, options.save + "_inflated.pcd");
+    writeOctomap(builder.snapshot(), options.save + ".bt");
   }
   if (builder.counters()->integrated == 0) {
     std::cerr << "error: no scan could be integrated\n";

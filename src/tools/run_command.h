@@ -11,6 +11,7 @@ struct RunOptions {
   std::string config;                 ///< YAML file; empty: defaults
   std::vector<std::string> settings;  ///< "name=value", after the file
   std::string json;                   ///< where to write the figures; empty: nowhere
+  std::string save;                   ///< PREFIX of PREFIX_occupied.pcd, ...; empty: nowhere
   int verify = 0;                     ///< compare with brute force at every n-th scan; 0: never
 };
 

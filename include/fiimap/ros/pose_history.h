@@ -44,6 +44,9 @@ class PoseHistory {
   /// Stamp of the newest pose; zero when there is none.
   ros::Time newest() const { return cache_->getLatestTime(); }
 
+  /// Stamp of the oldest pose that is kept; zero when there is none.
+  ros::Time oldest() const { return cache_->getOldestTime(); }
+
   /// Pose at a stamp: position linear, orientation slerp between the poses around it.
   PoseAtStamp at(const ros::Time& stamp) const;
 

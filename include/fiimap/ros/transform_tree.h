@@ -38,6 +38,8 @@ class TransformTree {
                       double max_gap) const;
 
  private:
+  /// \return false when the stamp is known already or too old.
+  bool remember(const std::string& child, const ros::Time& stamp);
   double largestGap(const std::string& target, const std::string& source,
                     const ros::Time& stamp) const;
   double gapOfLink(const std::string& parent, const std::string& child,

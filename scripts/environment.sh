@@ -1,0 +1,17 @@
+# Sourced by the other scripts: where things are, and an environment in which ROS works.
+
+source_dir="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+build_dir="${FIIMAP_BUILD_DIR:-$source_dir/build}"
+
+# The system's Python has the ROS modules; one of pyenv or conda ahead in PATH has not.
+export PATH="/usr/bin:/bin:$PATH"
+# Everything runs on this machine, whatever its network looks like.
+export ROS_HOSTNAME=localhost
+unset ROS_IP ROS_NAMESPACE
+
+if [ -f /opt/ros/noetic/setup.bash ]; then
+  # The file reads variables that may not be set.
+  set +u
+  . /opt/ros/noetic/setup.bash
+  set -u
+fi

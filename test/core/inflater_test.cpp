@@ -1,0 +1,128 @@
+#include "fiimap/inflater.h"
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "inflation_fixture.h"
+#include "oracle.h"
+
+/// Invariant 1 for every method, shape and radius over random histories, against the definition.
+namespace fiimap {
+namespace {
+
+using test::ElementDefinition;
+using test::InflatedWorld;
+using test::Method;
+
+struct Case {
+  Method method;
+  ElementDefinition element;
+};
+
+constexpr ElementShape kShapes[] = {ElementShape::kBall, ElementShape::kCube,
+                                    ElementShape::kDiamond};
+/// L = 0..10 voxels of 100 mm, and radii that are not whole.
+constexpr int kRadiiMm[] = {0,   100, 142, 200, 245, 299, 300, 400,
+                            500, 600, 700, 800, 860, 900, 1000};
+
+/// Neither powers of two nor wider than the element throughout, and the seams of words and tiles.
+const VoxelIndex kWindows[] = {{1, 1, 1},   {9, 1, 1},  {1, 7, 3},   {7, 5, 20}, {13, 21, 9},
+                               {33, 18, 4}, {8, 40, 2}, {5, 6, 63},  {6, 5, 64}, {4, 7, 66},
+                               {64, 3, 5},  {3, 65, 6}, {19, 20, 17}};
+
+/// How long a history is, how many voxels may flip at once, and one of how many windows is used.
+struct Effort {
+  int steps, flips, one_of;
+};
+
+/// The breadth-first search pays for each flip with the element's doubled volume.
+Effort effortFor(const Case& c) {
+  const bool is_large = c.element.ceilOfRadius() > 4;
+  switch (c.method.method) {
+    case InflationMethod::kIncremental:
+      return is_large ? Effort{20, 40, 1} : Effort{60, 60, 1};
+    case InflationMethod::kBfs:
+      return is_large ? Effort{6, 4, 3} : Effort{12, 20, 1};
+    case InflationMethod::kBatch:
+      return is_large ? Effort{6, 20, 1} : Effort{12, 40, 1};
+  }
+  return {};
+}
+
+class InflaterTest : public ::testing::TestWithParam<Case> {};
+
+TEST_P(InflaterTest, EqualsTheDefinitionAfterEveryStep) {
+  const Effort effort = effortFor(GetParam());
+  unsigned seed = 0;
+  for (const VoxelIndex& window : kWindows) {
+    // Other windows for other radii.
+    if ((++seed + GetParam().element.ceilOfRadius()) % effort.one_of != 0) continue;
+    test::Random random(seed);
+    InflatedWorld world(GetParam().method, GetParam().element, window, &random);
+    for (int step = 0; step < effort.steps; ++step) {
+      SCOPED_TRACE("window " + test::describe(window) + ", seed " + std::to_string(seed) +
+                   ", step " + std::to_string(step));
+      world.randomStep(effort.flips);
+      ASSERT_TRUE(world.inflationIsExact());
+    }
+  }
+}
+
+std::vector<Case> allCases() {
+  std::vector<Case> cases;
+  for (const Method& method : test::kMethods) {
+    for (const ElementShape shape : kShapes) {
+      for (const int radius_mm : kRadiiMm) cases.push_back({method, {shape, radius_mm, 100}});
+    }
+  }
+  return cases;
+}
+
+std::string nameOf(const ::testing::TestParamInfo<Case>& info) {
+  return test::nameOf(info.param.method) + "_" + test::nameOf(info.param.element.shape) + "_" +
+         std::to_string(info.param.element.radius_mm) + "mm";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InflaterTest, ::testing::ValuesIn(allCases()), nameOf);
+
+constexpr int kFlips = 20;
+
+class InflationRadiusTest : public ::testing::TestWithParam<Method> {};
+
+TEST_P(InflationRadiusTest, IsExactAfterEveryChangeOfElement) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    test::Random random(seed);
+    for (const VoxelIndex& window : {VoxelIndex(13, 21, 9), VoxelIndex(5, 34, 64)}) {
+      InflatedWorld world(GetParam(), {ElementShape::kBall, 200, 100}, window, &random);
+      for (int step = 0; step < 16; ++step) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(step));
+        const ElementDefinition element{kShapes[test::uniformInt(random, 0, 2)],
+                                        kRadiiMm[test::uniformInt(random, 0, 9)], 100};
+        world.changeElement(element);
+        ASSERT_TRUE(world.inflationIsExact());
+        world.randomStep(kFlips);
+        ASSERT_TRUE(world.inflationIsExact());
+      }
+    }
+  }
+}
+
+TEST_P(InflationRadiusTest, RebuildRepairsWhateverThePlaneHeld) {
+  test::Random random(5);
+  InflatedWorld world(GetParam(), {ElementShape::kBall, 200, 100}, {20, 20, 20}, &random);
+  world.randomStep(kFlips);
+  for (int i = 0; i < 200; ++i) {
+    world.grid().set(Plane::kInflated, test::uniformVoxel(random, world.grid().window()),
+                     test::chance(random, 0.5));
+  }
+  world.rebuild();
+  EXPECT_TRUE(world.inflationIsExact());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InflationRadiusTest, ::testing::ValuesIn(test::kMethods),
+                         test::nameOfMethod);
+
+}  // namespace
+}  // namespace fiimap

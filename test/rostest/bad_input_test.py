@@ -1,0 +1,181 @@
+#!/usr/bin/python3
+"""Spoiled input is counted under its reason, diagnostics say what to do, and mapping goes on."""
+import itertools
+import time
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
+
+from rostest_support import MapTest, wait_for
+from vehicle import Vehicle
+
+ENOUGH = 3  # scans
+PAUSE = 0.02  # s between scans
+PARAMETERS = {'max_pose_wait': 0.3, 'pixel_step': 1, 'publish_rate': 100.0}
+
+
+def nothing(_):
+    return None
+
+
+def changed(**values):
+    """A change of message fields; names of nested fields are joined by '__'."""
+    def change(message):
+        for name, value in values.items():
+            *path, last = name.split('__')
+            part = message
+            for field in path:
+                part = getattr(part, field)
+            setattr(part, last, value)
+        return message
+    return change
+
+
+def with_less_data(image):
+    image.data = image.data[:-1]
+    return image
+
+
+def with_more_data(image):
+    image.data = image.data * 2
+    return image
+
+
+class BadInputTest(MapTest):
+    def setUp(self):
+        self.vehicle = Vehicle()
+        self.addCleanup(self.vehicle.close)
+
+    def start_vehicle(self):
+        self.node, self.listener = self.start_map(PARAMETERS)
+        wait_for(self.vehicle.is_connected, 'the connections of the vehicle')
+
+    def fly_until(self, condition, what, **changes):
+        def step():
+            self.vehicle.fly(**changes)
+            time.sleep(PAUSE)
+            return condition()
+        return wait_for(step, what)
+
+    def fly_well(self):
+        """Flies until scans are integrated, again."""
+        goal = self.listener.newest().integrated + ENOUGH
+        self.fly_until(lambda: self.listener.newest().integrated >= goal,
+                       f'integrated scans: {self.listener.dropped()}')
+
+    def input_status(self):
+        return self.listener.diagnostics.get('inputs', DiagnosticStatus())
+
+    def fly_spoiled(self, reason, words, **changes):
+        """Flies until scans are dropped for the reason; diagnostics must say the words."""
+        key = f'dropped: {reason}'
+        goal = self.listener.input_count(key) + ENOUGH
+
+        def is_told():
+            status = self.input_status()
+            return (self.listener.input_count(key) >= goal and status.level != status.OK
+                    and all(word in status.message for word in words))
+        self.fly_until(is_told, f'{reason} in diagnostics, with {words}', **changes)
+
+    def check(self, reason, words, **changes):
+        self.start_vehicle()
+        self.fly_well()
+        self.fly_spoiled(reason, words, **changes)
+        self.fly_well()
+        self.assertGreaterEqual(self.listener.dropped()[reason], ENOUGH)
+        self.assertGreater(self.listener.newest().occupied, 0)
+        self.check_end()
+
+    def check_end(self):
+        wait_for(lambda: self.listener.input_count('scans received') == self.vehicle.images,
+                 'the count of all images')
+        counts = {name: self.listener.input_count(f'scans {name}')
+                  for name in ('received', 'integrated', 'dropped', 'waiting')}
+        self.assertEqual(counts['received'],
+                         counts['integrated'] + counts['dropped'] + counts['waiting'])
+        self.assertEqual(self.node.interrupt(), 0, self.node.output())
+
+    # Images and their intrinsics
+
+    def test_missing_camera_info(self):
+        self.start_vehicle()
+        self.fly_spoiled('no_camera_info', ['no camera_info received on /depth/camera_info',
+                                            'remapped'], info=nothing)
+        self.assertEqual(self.listener.statistics, [])
+        self.fly_well()
+        self.check_end()
+
+    def test_camera_info_of_zeros(self):
+        self.check('bad_camera_info', ['not calibrated', 'calibrate'],
+                   info=changed(K=[0.0] * 9, P=[0.0] * 12))
+
+    def test_camera_info_of_another_size(self):
+        self.check('bad_camera_info', ['640 x 480', '64 x 48'], info=changed(width=640, height=480))
+
+    def test_wrong_encoding(self):
+        self.check('bad_encoding', ['rgb8', '16UC1, mono16 or 32FC1'],
+                   image=changed(encoding='rgb8'))
+
+    def test_less_data_than_promised(self):
+        self.check('bad_image', ['data'], image=with_less_data)
+
+    def test_more_data_than_promised(self):
+        self.check('bad_image', ['data'], image=with_more_data)
+
+    def test_step_smaller_than_a_row(self):
+        self.check('bad_image', ['step'], image=changed(step=1))
+
+    def test_images_without_stamp(self):
+        self.check('zero_stamp', ['header.stamp'], image=changed(header__stamp=rospy.Time()))
+
+    def test_images_with_the_same_stamp(self):
+        self.start_vehicle()
+        self.fly_well()
+        stamp = rospy.Time(self.vehicle.time)
+        self.fly_spoiled('stale_stamp', ['increasing stamps'], image=changed(header__stamp=stamp))
+        self.fly_well()
+        self.check_end()
+
+    def test_images_of_an_unknown_frame(self):
+        self.check('no_extrinsics', ["'elsewhere'", 'static transform'],
+                   image=changed(header__frame_id='elsewhere'))
+
+    # Poses
+
+    def test_odometry_that_is_not_finite(self):
+        self.check('bad_pose', ['finite'],
+                   odometry=changed(pose__pose__position__x=float('nan')))
+
+    def test_odometry_with_a_zero_quaternion(self):
+        self.check('bad_pose', ['quaternion'], odometry=changed(pose__pose__orientation__w=0.0))
+
+    def test_odometry_out_of_range(self):
+        self.check('bad_pose', [], odometry=changed(pose__pose__position__x=1e15))
+
+    def test_odometry_of_another_frame(self):
+        self.check('frame_mismatch', ["'map'", "'world'", 'set map_frame'],
+                   odometry=changed(header__frame_id='map'))
+
+    def test_odometry_without_stamp(self):
+        self.check('zero_stamp', ['header.stamp'], odometry=changed(header__stamp=rospy.Time()))
+
+    def test_odometry_that_stops(self):
+        self.check('pose_timeout', ['pose_source', 'max_pose_wait'], odometry=nothing)
+
+    def test_odometry_that_is_rare(self):
+        number = itertools.count()
+        self.check('pose_gap', ['max_pose_gap'],
+                   odometry=lambda pose: pose if next(number) % 25 == 0 else None)
+
+    def test_no_odometry_at_all(self):
+        self.start_vehicle()
+        self.fly_spoiled('pose_timeout', ['no poses received on /odom', 'remapped'],
+                         odometry=nothing)
+        self.fly_well()
+        self.check_end()
+
+
+if __name__ == '__main__':
+    rospy.init_node('bad_input_test')
+    rostest.rosrun('fiimap', 'bad_input_test', BadInputTest)

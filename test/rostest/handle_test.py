@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+"""Nodelets of the same manager read the map through its handle, whoever comes or goes first."""
+import tempfile
+
+import rospy
+import rostest
+
+import make_bag_variants
+from manager_support import ManagerTest
+from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, wait_for
+
+FORM = ('depth', 'odometry')
+SCANS = 20
+PARAMETERS = {**PATIENT_QUEUES, 'resolution': 0.1}
+
+
+class HandleTest(ManagerTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.bag_folder = tempfile.TemporaryDirectory()
+        cls.bag = make_bag_variants.write_variants(
+            FLIGHT_BAG, cls.bag_folder.name, SCANS, [FORM])[FORM]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.bag_folder.cleanup()
+
+    def play_all(self, listener):
+        self.play(self.bag)
+        listener.wait_for_integrated(SCANS)
+
+    def wait_for_messages(self, probe, count):
+        wait_for(lambda: self.report(probe)['messages'] >= count, f'{count} handles in {probe}')
+
+    def test_reader_in_the_same_manager_sees_consistent_snapshots(self):
+        self.load_probe('probe')
+        _, listener = self.load_map(PARAMETERS)
+        self.play_all(listener)
+        self.wait_for_messages('probe', SCANS)
+        report = self.report('probe')
+        self.assertEqual(report['messages'], SCANS)
+        self.assertEqual((report['null_handles'], report['strangers']), (0, 0))
+        self.assertEqual(report['handles'], 1)
+        self.assertEqual(report['sequence'], listener.newest().sequence)
+        self.assertGreater(report['snapshots'], 1)
+        self.assertGreater(report['clouds'], 0)
+
+    def test_late_reader_finds_the_map(self):
+        _, listener = self.load_map(PARAMETERS)
+        self.play_all(listener)
+        self.load_probe('late')
+        wait_for(lambda: self.report('late')['snapshots'] > 0, 'a snapshot from the registry')
+        report = self.report('late')
+        self.assertEqual((report['messages'], report['handles']), (0, 1))
+        self.assertEqual(report['sequence'], listener.newest().sequence)
+
+    def test_handle_outlives_its_nodelet_and_a_new_map_replaces_it(self):
+        probe = self.load_probe('probe')
+        map_loader, listener = self.load_map(PARAMETERS)
+        self.play_all(listener)
+        self.wait_for_messages('probe', SCANS)
+
+        self.unload(map_loader)
+        snapshots = self.report('probe')['snapshots']
+        self.assertEqual(self.report('probe')['registered'], 1)
+
+        map_loader, listener = self.load_map(PARAMETERS)
+        self.play_all(listener)
+        self.wait_for_messages('probe', 2 * SCANS)
+        report = self.report('probe')
+        self.assertEqual(report['handles'], 2)
+        self.assertEqual((report['null_handles'], report['strangers']), (0, 0))
+        self.assertGreater(report['snapshots'], snapshots)
+        self.assertEqual(report['sequence'], listener.newest().sequence)
+
+        # The last owner of the handle goes after the nodelet that made it.
+        self.unload(map_loader)
+        self.unload(probe)
+        self.load_probe('last')
+        self.assertEqual(self.report('last')['registered'], 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('handle_test')
+    rostest.rosrun('fiimap', 'handle_test', HandleTest)

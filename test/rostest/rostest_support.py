@@ -1,0 +1,282 @@
+"""What the tests of the mapping node share: processes, recordings, and what the node publishes."""
+import json
+import math
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+
+import roslib.packages
+import rosbag
+import rospkg
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs import point_cloud2
+from sensor_msgs.msg import PointCloud2
+
+from fiimap.msg import Statistics
+
+PACKAGE = pathlib.Path(rospkg.RosPack().get_path('fiimap'))
+DATA = PACKAGE / 'data'
+FLIGHT_BAG = DATA / 'synth_flight_excerpt.bag'
+
+# Nothing may take this long, also on a slow machine with other work; no test measures time.
+PATIENCE = 90.0  # s
+POLL = 0.02  # s
+
+# Recordings must arrive whole, however slow the machine: no scan may be too late.
+PATIENT_QUEUES = {
+    'scan_queue_size': 1000, 'ready_queue_size': 1000, 'max_pose_wait': 100.0,
+    'pose_history': 100.0,
+}
+
+
+def recording(name):
+    """A recording that does not come with the package, from FIIMAP_DATA or beside the checkout.
+
+    Skips the test when there is none."""
+    folders = [pathlib.Path(os.environ.get('FIIMAP_DATA', '')), PACKAGE.parent / 'shared' / 'data']
+    for folder in folders:
+        if (folder / name).is_file():
+            return folder / name
+    print(f'SKIPPED, set FIIMAP_DATA to the folder that holds {name}')
+    raise unittest.SkipTest(f'no {name}')
+
+
+def cut(source, target, scan_topic, scans, first=0):
+    """Copies a number of scans of a bag from the given one on, and the messages between them."""
+    passed = 0
+    transforms = []
+    with rosbag.Bag(str(source)) as bag, rosbag.Bag(str(target), 'w') as output:
+        for topic, message, stamp, connection in bag.read_messages(return_connection_header=True):
+            if passed < first:
+                if topic == '/tf_static':
+                    transforms.append((topic, message, connection))
+                passed += topic == scan_topic
+                continue
+            # Not at their own time: the excerpt begins here.
+            for static_topic, transform, header in transforms:
+                output.write(static_topic, transform, stamp, connection_header=header)
+            transforms.clear()
+            if topic == scan_topic:
+                passed += 1
+                if passed > first + scans:
+                    break
+            output.write(topic, message, stamp, connection_header=connection)
+    return target
+
+
+def program(package, name):
+    return roslib.packages.find_node(package, name)[0]
+
+
+def wait_for(condition, what):
+    """Waits until the condition holds and returns its value."""
+    end = time.monotonic() + PATIENCE
+    while not rospy.is_shutdown() and time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(POLL)
+    raise AssertionError(f'waited in vain for {what}')
+
+
+def voxels_at(centres, resolution):
+    """Indices of the voxels around centres, which must be one per voxel."""
+    centres = list(centres)
+    voxels = {tuple(math.floor(c / resolution) for c in centre) for centre in centres}
+    assert len(voxels) == len(centres), f'{len(centres)} centres of {len(voxels)} voxels'
+    return voxels
+
+
+def voxels_of_cloud(cloud, resolution):
+    return voxels_at(point_cloud2.read_points(cloud, ('x', 'y', 'z')), resolution)
+
+
+def voxels_of_pcd(file, resolution):
+    """Of a binary PCD file with the fields x, y and z of type float."""
+    header, data = pathlib.Path(file).read_bytes().split(b'DATA binary\n', 1)
+    entries = dict(line.split(' ', 1) for line in header.decode().splitlines() if line[0] != '#')
+    assert (entries['FIELDS'], entries['SIZE'], entries['TYPE']) == ('x y z', '4 4 4', 'F F F')
+    assert len(data) == int(entries['POINTS']) * 12
+    return voxels_at(struct.iter_unpack('<fff', data), resolution)
+
+
+class Process:
+    """A running program whose output is kept."""
+
+    def __init__(self, command, log, environment=None):
+        self.name = ' '.join(str(word) for word in command)
+        self._log = log
+        with open(log, 'wb') as output:
+            self._popen = subprocess.Popen([str(word) for word in command], stdout=output,
+                                           stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                           env={**os.environ, **(environment or {})})
+
+    def is_running(self):
+        return self._popen.poll() is None
+
+    def output(self):
+        return self._log.read_text(errors='replace')
+
+    def wait(self):
+        """Exit code; of a process that does not end: an assertion."""
+        try:
+            return self._popen.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise AssertionError(f'{self.name} does not end')
+
+    def interrupt(self):
+        """What Ctrl-C does. Returns the exit code."""
+        if self.is_running():
+            self._popen.send_signal(signal.SIGINT)
+        return self.wait()
+
+    def kill(self):
+        self._popen.kill()
+        self._popen.wait()
+
+
+class Map:
+    """Hears all that a mapping node of a name publishes."""
+
+    def __init__(self, name):
+        self.name = name
+        self.statistics = []
+        self.diagnostics = {}  # newest status by name of the task
+        self.clouds = {}  # newest by topic
+        self._subscribers = [
+            rospy.Subscriber(f'/{name}/statistics', Statistics, self.statistics.append),
+            rospy.Subscriber('/diagnostics', DiagnosticArray, self._on_diagnostics)]
+        for topic in ('occupied', 'inflated'):
+            self._subscribers.append(rospy.Subscriber(
+                f'/{name}/{topic}', PointCloud2, self._on_cloud, topic, buff_size=1 << 24))
+
+    def close(self):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+    def _on_cloud(self, cloud, topic):
+        self.clouds[topic] = cloud
+
+    def _on_diagnostics(self, message):
+        for status in message.status:
+            self.diagnostics[status.name.split(': ')[-1]] = status
+
+    def newest(self):
+        return self.statistics[-1] if self.statistics else Statistics()
+
+    def dropped(self):
+        """Dropped scans by reason at the newest scan."""
+        return {drop.reason: drop.count for drop in self.newest().drops}
+
+    def input_count(self, key):
+        """A number of the task `inputs` of /diagnostics, which also changes without scans."""
+        status = self.diagnostics.get('inputs')
+        values = {value.key: value.value for value in status.values} if status else {}
+        return int(values.get(key, 0))
+
+    def wait_for_integrated(self, scans):
+        """Waits until so many scans were integrated, and returns the newest statistics."""
+        wait_for(lambda: self.newest().integrated >= scans,
+                 f'{scans} integrated scans: {self.newest().integrated}, {self.dropped()}, '
+                 f'{self.diagnostics.get("inputs")}')
+        return self.newest()
+
+    def wait_for_clouds(self):
+        """Both clouds of the newest scan, as (occupied, inflated)."""
+        def are_new():
+            stamp = self.newest().header.stamp
+            return len(self.clouds) == 2 and all(
+                cloud.header.stamp == stamp for cloud in self.clouds.values())
+        wait_for(are_new, 'clouds of the newest scan')
+        return self.clouds['occupied'], self.clouds['inflated']
+
+
+class MapTest(unittest.TestCase):
+    """A test with a directory of its own and with processes that end with it.
+
+    After every test the statistics of all maps must add up, and what failed shows all output."""
+
+    def run(self, result=None):
+        troubles = len(result.failures) + len(result.errors)
+        self.processes = []
+        self.maps = []
+        with tempfile.TemporaryDirectory() as directory:
+            self.directory = pathlib.Path(directory)
+            super().run(result)
+            if len(result.failures) + len(result.errors) > troubles:
+                for process in self.processes:
+                    print(f'--- {process.name}\n{process.output()}')
+        return result
+
+    def tearDown(self):
+        for process in reversed(self.processes):
+            if process.is_running():
+                process.kill()
+        for listener in self.maps:
+            listener.close()
+            for statistics in listener.statistics:
+                self.assert_conserved(statistics)
+
+    def assert_conserved(self, statistics):
+        s = statistics
+        self.assertEqual(s.received, s.integrated + s.dropped + s.waiting, s)
+        self.assertEqual(s.dropped, sum(drop.count for drop in s.drops), s)
+
+    def start(self, *command, environment=None):
+        log = self.directory / f'process_{len(self.processes)}.log'
+        self.processes.append(Process(command, log, environment))
+        return self.processes[-1]
+
+    def listen(self, name='map'):
+        self.maps.append(Map(name))
+        return self.maps[-1]
+
+    def set_parameters(self, parameters, name='map'):
+        if rospy.has_param(f'/{name}'):
+            rospy.delete_param(f'/{name}')
+        if parameters:
+            rospy.set_param(f'/{name}', parameters)
+
+    def start_map(self, parameters, *arguments, name='map'):
+        """A mapping node in a process of its own, and a listener that is connected to it."""
+        self.set_parameters(parameters, name)
+        listener = self.listen(name)
+        process = self.start(program('fiimap', 'mapping_node'), f'__name:={name}', *arguments)
+        wait_for(lambda: listener.diagnostics or not process.is_running(), 'a mapping node')
+        return process, listener
+
+    def play(self, bag, *arguments):
+        """Plays a bag to its end; every topic of it must have a subscriber."""
+        player = self.start(program('rosbag', 'play'), '--quiet', '--clock',
+                            '--wait-for-subscribers', *arguments, bag)
+        self.assertEqual(player.wait(), 0, player.output())
+
+    def evaluate(self, bag, parameters, config=None):
+        """Figures of the offline tool; the map is in self.directory, offline_occupied.pcd, ..."""
+        prefix = self.directory / 'offline'
+        report = self.directory / 'offline.json'
+        command = [program('fiimap', 'fiimap_eval'), 'run', bag, '--save', prefix, '--json', report]
+        if config:
+            command += ['--config', config]
+        for name, value in parameters.items():
+            words = value if isinstance(value, list) else [value]
+            command += ['--set', f'{name}=' + ' '.join(str(word) for word in words)]
+        evaluation = self.start(*command)
+        self.assertEqual(evaluation.wait(), 0, evaluation.output())
+        return json.loads(report.read_text())
+
+    def assert_clouds_equal_offline(self, listener, resolution):
+        """The node's newest clouds show the voxels of the offline tool's map, no more, no less."""
+        for cloud, layer in zip(listener.wait_for_clouds(), ('occupied', 'inflated')):
+            offline = voxels_of_pcd(self.directory / f'offline_{layer}.pcd', resolution)
+            live = voxels_of_cloud(cloud, resolution)
+            self.assertEqual(len(live - offline), 0, f'{layer} in the node only')
+            self.assertEqual(len(offline - live), 0, f'{layer} in the offline tool only')
+            self.assertGreater(len(live), 0)

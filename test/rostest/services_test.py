@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""~save_map writes what is published and refuses what it cannot do; ~reset forgets."""
+import tempfile
+
+import rospy
+import rostest
+from std_srvs.srv import Trigger
+
+import make_bag_variants
+from fiimap.srv import SaveMap
+from rostest_support import (FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, voxels_at,
+                             voxels_of_cloud, voxels_of_pcd, wait_for)
+
+FORM = ('points', 'odometry')
+RESOLUTION = 0.1
+PARAMETERS = {**PATIENT_QUEUES, 'sensor': FORM[0], 'resolution': RESOLUTION}
+SCANS = 20
+
+
+class ServicesTest(MapTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.bag_folder = tempfile.TemporaryDirectory()
+        cls.whole_bag = make_bag_variants.write_variants(
+            FLIGHT_BAG, cls.bag_folder.name, 2 * SCANS, [FORM])[FORM]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.bag_folder.cleanup()
+
+    def setUp(self):
+        self.bag = cut(self.whole_bag, self.directory / 'flight.bag', '/points', SCANS)
+        self.target = self.directory / 'maps'
+        self.target.mkdir()
+
+    def call(self, service, kind, *arguments):
+        name = f'/map/{service}'
+        rospy.wait_for_service(name)
+        return rospy.ServiceProxy(name, kind)(*arguments)
+
+    def save(self, name):
+        return self.call('save_map', SaveMap, name)
+
+    def assert_refused(self, response, *words):
+        self.assertFalse(response.success, response)
+        for word in words:
+            self.assertIn(word, response.message)
+        self.assertEqual(list(self.target.iterdir()), [])
+
+    def start_and_play(self, **parameters):
+        _, listener = self.start_map({**PARAMETERS, **parameters})
+        self.play(self.bag, '--rate=2')
+        listener.wait_for_integrated(SCANS)
+        return listener
+
+    def octomap(self, file):
+        """Occupied voxels and the number of free ones as the OctoMap library reads them."""
+        listing = self.start(program('fiimap', 'list_octomap'), file)
+        self.assertEqual(listing.wait(), 0, listing.output())
+        lines = [line.split() for line in listing.output().splitlines()]
+        numbers = {words[0]: float(words[1]) for words in lines if len(words) == 2}
+        self.assertEqual(numbers['resolution'], RESOLUTION)
+        centres = [[float(word) for word in words[1:]] for words in lines if len(words) == 4]
+        return voxels_at(centres, RESOLUTION), int(numbers['free'])
+
+    def test_save_map_writes_what_is_published(self):
+        listener = self.start_and_play(save_directory=str(self.target))
+        response = self.save('flight-1.a_b')
+        self.assertTrue(response.success, response.message)
+        files = {f'flight-1.a_b{end}' for end in ('_occupied.pcd', '_inflated.pcd', '.bt')}
+        self.assertEqual({file.name for file in self.target.iterdir()}, files)
+
+        occupied, inflated = (voxels_of_cloud(cloud, RESOLUTION)
+                              for cloud in listener.wait_for_clouds())
+        self.assertEqual(len(occupied), listener.newest().occupied)
+        self.assertEqual(len(inflated), listener.newest().inflated)
+        base = self.target / 'flight-1.a_b'
+        self.assertEqual(voxels_of_pcd(f'{base}_occupied.pcd', RESOLUTION), occupied)
+        self.assertEqual(voxels_of_pcd(f'{base}_inflated.pcd', RESOLUTION), inflated)
+        in_octomap, free = self.octomap(f'{base}.bt')
+        self.assertEqual(in_octomap, occupied)
+        self.assertGreater(free, len(occupied))
+
+        self.evaluate(self.bag, PARAMETERS)
+        self.assertEqual((self.directory / 'offline.bt').read_bytes(),
+                         (self.target / 'flight-1.a_b.bt').read_bytes())
+
+    def test_save_map_replaces_files(self):
+        self.start_and_play(save_directory=str(self.target))
+        old = self.target / 'again_occupied.pcd'
+        old.write_text('old')
+        self.assertTrue(self.save('again').success)
+        self.assertGreater(len(voxels_of_pcd(old, RESOLUTION)), 0)
+
+    def test_save_map_refuses_bad_names(self):
+        self.start_and_play(save_directory=str(self.target))
+        for name in ('', 'a/b', '../up', '/tmp/absolute', '.hidden', 'a b', 'a\n'):
+            self.assert_refused(self.save(name), 'name', name.strip())
+
+    def test_save_map_refuses_without_directory(self):
+        self.start_and_play()
+        self.assert_refused(self.save('room'), 'save_directory')
+
+    def test_save_map_reports_a_directory_that_is_not_there(self):
+        missing = self.directory / 'missing'
+        self.start_and_play(save_directory=str(missing))
+        self.assert_refused(self.save('room'), str(missing))
+
+    def test_save_map_refuses_before_the_first_scan(self):
+        self.start_map({**PARAMETERS, 'save_directory': str(self.target)})
+        self.assert_refused(self.save('room'), 'no map yet')
+
+    def test_reset_forgets_and_mapping_goes_on(self):
+        listener = self.start_and_play(save_directory=str(self.target))
+        sequence = listener.newest().sequence
+        listener.wait_for_clouds()
+        response = self.call('reset', Trigger)
+        self.assertTrue(response.success, response.message)
+        wait_for(lambda: {cloud.width for cloud in listener.clouds.values()} == {0},
+                 'empty clouds after the reset')
+        self.assert_refused(self.save('room'), 'no map yet')
+
+        # The rest of the flight, so that time goes on.
+        rest = cut(self.whole_bag, self.directory / 'rest.bag', '/points', SCANS, first=SCANS)
+        offline = self.evaluate(rest, PARAMETERS)
+        self.play(rest, '--rate=2')
+        newest = listener.wait_for_integrated(2 * SCANS)
+        self.assertEqual(newest.dropped, 0)
+        self.assertEqual(newest.occupied, offline['occupied'])
+        self.assertGreater(newest.sequence, sequence)
+        self.assert_clouds_equal_offline(listener, RESOLUTION)
+
+
+if __name__ == '__main__':
+    rospy.init_node('services_test')
+    rostest.rosrun('fiimap', 'services_test', ServicesTest)
