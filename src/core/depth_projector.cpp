@@ -2,10 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace fiimap {
 namespace {
+
+/// A step that is a whole number of pixels must stay so although the product is rounded.
+constexpr double kRelativeSlack = 1e-9;
+/// Larger than any image, and sums with pixel coordinates do not overflow.
+constexpr double kMaxStep = 1 << 20;
+
+/// A pixel of a row; rows need not be aligned.
+template <typename Value>
+Value loadPixel(const std::uint8_t* row, int u) {
+  Value value;
+  std::memcpy(&value, row + u * sizeof(Value), sizeof(Value));
+  return value;
+}
 
 /// What a pixel says: a depth in metres, NaN for "invalid", or infinity.
 struct Uint16Pixel {
@@ -35,7 +50,7 @@ Eigen::Vector2i DepthProjector::pixelStep(const PinholeIntrinsics& intrinsics) c
   if (config_.pixel_step > 0) return {config_.pixel_step, config_.pixel_step};
   const Eigen::Vector2d focal(intrinsics.fx, intrinsics.fy);
   const Eigen::Vector2d step = focal * (config_.resolution / config_.max_depth);
-  return step.array().floor().max(1.0).min(std::numeric_limits<int>::max()).cast<int>();
+  return (step.array() * (1.0 + kRelativeSlack)).floor().max(1.0).min(kMaxStep).cast<int>();
 }
 
 ReadingCount DepthProjector::project(const DepthImage& image, const PinholeIntrinsics& intrinsics,
@@ -67,10 +82,10 @@ ReadingCount DepthProjector::projectPixels(const DepthImage& image, const Eigen:
   const float scale = static_cast<float>(config_.depth_scale);
   ReadingCount count;
   for (int v = config_.border_margin; v < image.height - config_.border_margin; v += step.y()) {
-    const auto* row = reinterpret_cast<const typename Pixel::Type*>(
-        static_cast<const std::uint8_t*>(image.data) + v * image.row_bytes);
+    const auto* row = static_cast<const std::uint8_t*>(image.data) + v * image.row_bytes;
     for (int u = config_.border_margin; u < image.width - config_.border_margin; u += step.x()) {
-      addReading(Pixel::depth(row[u], scale), ray_of_u_[u] + ray_of_v_[v], scan, &count);
+      const float depth = Pixel::depth(loadPixel<typename Pixel::Type>(row, u), scale);
+      addReading(depth, ray_of_u_[u] + ray_of_v_[v], scan, &count);
     }
   }
   return count;

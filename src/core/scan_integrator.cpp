@@ -36,10 +36,12 @@ void updateGroup(const LogOdds& l, std::uint8_t hit, std::uint8_t free, std::uin
   std::uint64_t before;
   std::memcpy(&before, log_odds, kGroup);
   before &= spreadBits(known);
-  const std::uint64_t observed_bytes = spreadBits(hit | free);
-  // Most voxels that a scan sees are free and as certainly so as can be: another miss changes
-  // nothing. Leaving early halves the time of a scan's update.
-  if (hit == 0 && ((before ^ repeat(l.min)) & observed_bytes) == 0) return;
+  const std::uint8_t observed = hit | free;
+  const std::uint64_t observed_bytes = spreadBits(observed);
+  // Most voxels that a scan sees are known to be free and as certainly so as can be: another miss
+  // changes nothing. Leaving early halves the time of a scan's update.
+  const bool all_misses_of_known_voxels = hit == 0 && (observed & ~known) == 0;
+  if (all_misses_of_known_voxels && ((before ^ repeat(l.min)) & observed_bytes) == 0) return;
 
   const std::uint64_t hit_bytes = spreadBits(hit);
   std::int8_t value[kGroup], is_hit[kGroup], is_observed[kGroup];
@@ -54,7 +56,6 @@ void updateGroup(const LogOdds& l, std::uint8_t hit, std::uint8_t free, std::uin
     above |= static_cast<std::uint8_t>((value[i] >= l.threshold ? 1 : 0) << i);
   }
   std::memcpy(log_odds, value, kGroup);
-  const std::uint8_t observed = hit | free;
   *occupied = static_cast<std::uint8_t>((*occupied & ~observed) | (above & observed));
 }
 
