@@ -4,10 +4,6 @@
 #include <future>
 #include <utility>
 
-#include <ros/time.h>
-
-#include "fiimap/ros/stamps.h"
-
 namespace fiimap {
 namespace {
 
@@ -42,15 +38,14 @@ void MappingThread::stop() {
 }
 
 void MappingThread::addScan(const ScanMessage& scan) {
-  checkClock();
-  queue_.pushScan([this, scan, received = ros::Time::now()] {
+  queue_.pushScan([this, scan, received = readClock()] {
     ++counters_.received;
     synchronizer_.add(scan, received);
   });
 }
 
 void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
-  checkClock();
+  readClock();
   queue_.push([this, input = std::move(input)] { input(&synchronizer_); });
 }
 
@@ -72,15 +67,14 @@ bool MappingThread::reset() {
 
 /// Simulated time that goes back means that a bag began again, whatever the stamps say. Enqueued,
 /// so that messages of the old time stay in front of it.
-void MappingThread::checkClock() {
-  const ros::Time now = ros::Time::now();
-  const std::lock_guard<std::mutex> lock(clock_mutex_);
-  const double step_back = secondsBetween(now, clock_);
-  clock_ = now;
-  if (step_back <= kClockJump) return;
-  queue_.push([this, step_back] {
-    synchronizer_.restart("the clock went back by " + std::to_string(step_back) + " s");
-  });
+ros::Time MappingThread::readClock() {
+  const WaitingClock::Reading reading = clock_.read();
+  if (reading.step_back > kClockJump) {
+    queue_.push([this, step_back = reading.step_back] {
+      synchronizer_.restart("the clock went back by " + std::to_string(step_back) + " s");
+    });
+  }
+  return reading.time;
 }
 
 ScanCounters MappingThread::counters() const {
@@ -98,7 +92,8 @@ void MappingThread::run() {
 }
 
 void MappingThread::step() {
-  checkClock();
+  // Before the queue is emptied, so that no scan expires while its pose is in the queue.
+  const ros::Time now = readClock();
   const InputQueue::Batch batch = queue_.take(ready_.empty() ? kPoll : kPoll * 0);
   for (std::size_t i = 0; i < batch.displaced_scans; ++i) {
     ++counters_.received;
@@ -108,7 +103,7 @@ void MappingThread::step() {
     if (stopping_) return;
     task();
   }
-  synchronizer_.expire(ros::Time::now());
+  synchronizer_.expire(now);
   if (!ready_.empty()) integrateNext();
   publishCounters();
 }

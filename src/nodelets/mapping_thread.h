@@ -15,6 +15,7 @@
 #include "fiimap/ros/scan_decoder.h"
 #include "fiimap/ros/scan_synchronizer.h"
 #include "input_queue.h"
+#include "waiting_clock.h"
 
 namespace fiimap {
 
@@ -73,7 +74,7 @@ class MappingThread : private ScanListener {
   void run();
   void step();
   void integrateNext();
-  void checkClock();
+  ros::Time readClock();
   void forget(const std::string& why);
   void drop(const Drop& drop);
   void publishCounters();
@@ -94,8 +95,7 @@ class MappingThread : private ScanListener {
   ScanCounters counters_;
   std::deque<SynchronizedScan> ready_;
 
-  std::mutex clock_mutex_;
-  ros::Time clock_;  // newest time seen
+  WaitingClock clock_;
 
   mutable std::mutex counters_mutex_;
   ScanCounters published_counters_;

@@ -94,7 +94,7 @@ void forEachVoxel(const VoxelBox& box, Visitor&& visit) {
 class VoxelField {
  public:
   explicit VoxelField(const VoxelBox& box)
-      : box_(box), size_(box.size()), flags_(static_cast<std::size_t>(size_.prod()), 0) {}
+      : box_(box), size_(box.size()), flags_(static_cast<std::size_t>(box.volume()), 0) {}
 
   const VoxelBox& box() const { return box_; }
   bool at(const VoxelIndex& v) const { return flags_[indexOf(v)] != 0; }

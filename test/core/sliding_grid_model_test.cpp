@@ -113,10 +113,8 @@ class History {
     checkEntered(before, changes.entered);
   }
 
-  /// The entered boxes cover what the window did not cover before, and no more. Where no voxel
-  /// stayed there is no obstacle beside them, and the list may be empty.
+  /// The entered boxes cover what the window did not cover before, and no more.
   void checkEntered(const VoxelBox& before, const std::vector<VoxelBox>& entered) {
-    if (before.intersection(model_.window).empty() && entered.empty()) return;
     for (const VoxelBox& box : entered) ASSERT_EQ(box.intersection(model_.window), box);
     test::forEachVoxel(model_.window, [&](const VoxelIndex& v) {
       const bool has_entered = std::any_of(entered.begin(), entered.end(),

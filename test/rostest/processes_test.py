@@ -30,10 +30,10 @@ class ProcessesTest(MapTest):
         rospy.wait_for_service('/manager/list')
         return manager
 
-    def load_map(self, parameters):
+    def load_map(self, parameters, *options):
         self.set_parameters(parameters)
         return self.start(program('nodelet', 'nodelet'), 'load', 'fiimap/MappingNodelet',
-                          '/manager', '__name:=map')
+                          '/manager', *options, '__name:=map')
 
     def assert_clean_end(self, process):
         self.assertEqual(process.interrupt(), 0, process.output())
@@ -90,8 +90,10 @@ class ProcessesTest(MapTest):
     def test_interrupt_of_the_manager_while_mapping(self):
         manager = self.start_manager()
 
+        # A manager that ends while a loader is bonded to it may crash in the destructor of its own
+        # nodelet::Loader, whatever nodelet it holds (ros/nodelet_core #99).
         def load(parameters):
-            return self.load_map(parameters), self.listen()
+            return self.load_map(parameters, '--no-bond'), self.listen()
         self.map_while_playing(load)
         self.assert_clean_end(manager)
 

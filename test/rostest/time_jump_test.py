@@ -4,7 +4,7 @@ import rospy
 import rostest
 
 import make_bag_variants
-from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest
+from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, program
 
 SCANS = 20
 RESOLUTION = 0.1
@@ -36,6 +36,17 @@ class TimeJumpTest(MapTest):
 
     def test_depth_and_tf(self):
         self.play_twice('depth', 'tf')
+
+    def test_endless_loop(self):
+        form = ('depth', 'odometry')
+        bag = make_bag_variants.write_variants(FLIGHT_BAG, self.directory, SCANS, [form])[form]
+        node, listener = self.start_map(PATIENT_QUEUES)
+        player = self.start(program('rosbag', 'play'), '--quiet', '--clock', '--loop', '--rate=2',
+                            '--wait-for-subscribers', bag)
+        listener.wait_for_integrated(3 * SCANS)
+        player.interrupt()
+        self.assertGreaterEqual(node.output().count('the map was forgotten'), 2)
+        self.assertEqual(set(listener.dropped()) - {'time_jump'}, set())
 
 
 if __name__ == '__main__':

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fiimap/mapper.h"
+#include "oracle.h"
+#include "ray_oracle.h"
+
+namespace fiimap::test {
+
+/// The whole map by its definition: rays, log-odds, window and inflation, one voxel at a time.
+/// Where the window goes is not modelled: it is taken from the mapper under test.
+class MapperModel {
+ public:
+  explicit MapperModel(const MapperConfig& config) : config_(config), log_odds_(config) {}
+
+  /// Whether the ray from the sensor to a point (world) has nothing for rounding to decide.
+  bool isExact(const ScanPose& pose, const Eigen::Vector3d& point_W, const VoxelBox& window) const {
+    const VoxelBox box = updateBox(pose, window);
+    if (box.empty()) return true;
+    RayOracle oracle(box, config_.ray_end_cut);
+    return addRay(pose.T_W_S.translation(), point_W, &oracle) && oracle.isExact();
+  }
+
+  /// \param window of the mapper after the scan.
+  void integrate(const ScanPose& pose, const std::vector<Eigen::Vector3d>& points_W,
+                 const VoxelBox& window) {
+    forgetOutside(window);
+    lowered_ = raised_ = 0;
+    const VoxelBox box = updateBox(pose, window);
+    if (box.empty()) return;
+    RayOracle oracle(box, config_.ray_end_cut);
+    for (const Eigen::Vector3d& p : points_W) addRay(pose.T_W_S.translation(), p, &oracle);
+    forEachVoxel(box, [&](const VoxelIndex& v) {
+      const bool is_hit = oracle.hits().count(v) != 0;
+      if (is_hit || oracle.mustBeFree(v)) observe(v, is_hit);
+    });
+  }
+
+  void reset() { values_.clear(); }
+  std::size_t lowered() const { return lowered_; }
+  std::size_t raised() const { return raised_; }
+  std::size_t forgotten() const { return forgotten_; }
+
+  VoxelSet occupied() const {
+    VoxelSet occupied;
+    for (const auto& [v, value] : values_) {
+      if (value >= log_odds_.threshold) occupied.insert(v);
+    }
+    return occupied;
+  }
+
+  /// Every voxel of every plane.
+  ::testing::AssertionResult equals(const SlidingGrid& grid,
+                                    const ElementDefinition& element) const {
+    VoxelField known(grid.window()), occupied(grid.window());
+    for (const auto& entry : values_) known.mark(entry.first);
+    for (const VoxelIndex& v : this->occupied()) occupied.mark(v);
+    ::testing::AssertionResult result = planeEquals(grid, Plane::kKnown, known);
+    if (!result) return result << " (known)";
+    result = planeEquals(grid, Plane::kOccupied, occupied);
+    if (!result) return result << " (occupied)";
+    result = planeEquals(grid, Plane::kInflated,
+                         dilate(this->occupied(), element.offsets(), grid.window()));
+    return result ? result : result << " (inflated)";
+  }
+
+ private:
+  VoxelBox updateBox(const ScanPose& pose, const VoxelBox& window) const {
+    const VoxelLattice lattice(config_.resolution);
+    const VoxelIndex size = lattice.sizeOf(config_.localUpdateRange());
+    return VoxelLattice::boxAround(lattice.indexOf(pose.vehicle_W), size).intersection(window);
+  }
+
+  bool addRay(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& point_W,
+              RayOracle* oracle) const {
+    const Eigen::Vector3d ray = point_W - origin_W;
+    const double length = ray.norm();
+    const bool is_near_a_limit = std::abs(length - config_.min_ray_length) < 1e-4 ||
+                                 std::abs(length - config_.max_ray_length) < 1e-4;
+    if (is_near_a_limit) return false;
+    if (length < config_.min_ray_length) return true;
+    const ExactPoint from = inVoxels(origin_W);
+    if (length < config_.max_ray_length) return oracle->addReturn(from, inVoxels(point_W));
+    if (config_.beyond_max_depth == ReadingPolicy::kIgnore) return true;
+    return oracle->addMiss(from, inVoxels(origin_W + ray * (config_.max_ray_length / length)));
+  }
+
+  ExactPoint inVoxels(const Eigen::Vector3d& point_W) const {
+    return point_W.cast<long double>() / static_cast<long double>(config_.resolution);
+  }
+
+  void observe(const VoxelIndex& v, bool is_hit) {
+    int& value = values_[v];
+    const bool before = value >= log_odds_.threshold;
+    value = std::clamp<int>(value + (is_hit ? log_odds_.hit : log_odds_.miss), log_odds_.min,
+                            log_odds_.max);
+    const bool after = value >= log_odds_.threshold;
+    if (after && !before) ++lowered_;
+    if (before && !after) ++raised_;
+  }
+
+  void forgetOutside(const VoxelBox& window) {
+    forgotten_ = 0;
+    for (auto it = values_.begin(); it != values_.end();) {
+      const bool stays = window.contains(it->first);
+      if (!stays && it->second >= log_odds_.threshold) ++forgotten_;
+      it = stays ? std::next(it) : values_.erase(it);
+    }
+  }
+
+  MapperConfig config_;
+  LogOdds log_odds_;
+  std::map<VoxelIndex, int, VoxelLess> values_;
+  std::size_t lowered_ = 0, raised_ = 0, forgotten_ = 0;
+};
+
+}  // namespace fiimap::test

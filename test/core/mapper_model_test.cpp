@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fiimap/mapper.h"
+#include "mapper_model.h"
+#include "oracle.h"
+
+/// Whole histories of scans against the model, and against each other (invariants 1, 2, 3, 7).
+namespace fiimap {
+namespace {
+
+using test::ElementDefinition;
+using test::MapperModel;
+
+constexpr ElementDefinition kElement{ElementShape::kBall, 500, 250};
+
+MapperConfig randomConfig(test::Random& random) {
+  MapperConfig config;
+  config.resolution = kElement.resolution();
+  config.map_size_x = test::uniformInt(random, 4, 20) * config.resolution;
+  config.map_size_y = test::uniformInt(random, 4, 40) * config.resolution;
+  config.map_size_z = test::uniformInt(random, 3, 70) * config.resolution;
+  config.local_update_range_x = test::uniformInt(random, 4, 30) * config.resolution;
+  config.local_update_range_y = test::uniformInt(random, 4, 30) * config.resolution;
+  config.local_update_range_z = test::uniformInt(random, 4, 70) * config.resolution;
+  config.slide_distance = test::uniformReal(random, 0.0, 2.0);
+  config.ray_end_cut = test::uniformInt(random, 0, 3) * 0.5;
+  config.max_ray_length = test::uniformReal(random, 2.0, 10.0);
+  config.max_depth = 100.0;
+  config.p_hit = test::uniformReal(random, 0.55, 0.9);
+  config.p_miss = test::uniformReal(random, 0.3, 0.45);
+  config.inflation_radius = kElement.radius();
+  config.inflation_shape = kElement.shape;
+  config.map_mode = test::chance(random, 0.2) ? MapMode::kFixed : MapMode::kSliding;
+  const bool frees = test::chance(random, 0.7);
+  config.beyond_max_depth = frees ? ReadingPolicy::kFree : ReadingPolicy::kIgnore;
+  return config;
+}
+
+/// A vehicle that flies through a world of few obstacles, so that it sees them again and again.
+class Flight {
+ public:
+  explicit Flight(test::Random* random) : random_(*random), position_(randomPoint(1.0)) {
+    for (int i = 0; i < 25; ++i) obstacles_.push_back(position_ + randomPoint(kSight));
+  }
+
+  ScanPose next() {
+    const bool jumps = test::chance(random_, 0.03);
+    position_ += randomPoint(jumps ? 500.0 : test::chance(random_, 0.6) ? 0.2 : 1.0);
+    for (Eigen::Vector3d& obstacle : obstacles_) {
+      const bool is_out_of_sight = (obstacle - position_).norm() > 2.0 * kSight;
+      if (is_out_of_sight || test::chance(random_, 0.02)) obstacle = position_ + randomPoint(kSight);
+    }
+    ScanPose pose;
+    pose.vehicle_W = position_;
+    pose.T_W_S.translation() = position_ + randomPoint(0.3);
+    pose.T_W_S.linear() =
+        Eigen::AngleAxisd(test::uniformReal(random_, -3.0, 3.0), randomPoint(1.0).normalized())
+            .toRotationMatrix();
+    pose.stamp_ns = ++stamp_;
+    return pose;
+  }
+
+  /// World points around the obstacles, and some that are somewhere else or nowhere near.
+  std::vector<Eigen::Vector3d> look() {
+    std::vector<Eigen::Vector3d> points_W;
+    for (const Eigen::Vector3d& obstacle : obstacles_) {
+      if (test::chance(random_, 0.8)) points_W.push_back(obstacle + randomPoint(0.1));
+      if (test::chance(random_, 0.2)) points_W.push_back(position_ + randomPoint(15.0));
+    }
+    return points_W;
+  }
+
+ private:
+  static constexpr double kSight = 2.5;  // m
+
+  Eigen::Vector3d randomPoint(double reach) {
+    return Eigen::Vector3d::NullaryExpr(
+        [&](Eigen::Index) { return test::uniformReal(random_, -reach, reach); });
+  }
+
+  test::Random& random_;
+  Eigen::Vector3d position_;
+  std::vector<Eigen::Vector3d> obstacles_;
+  std::int64_t stamp_ = 0;
+};
+
+Eigen::Vector3f inSensorFrame(const ScanPose& pose, const Eigen::Vector3d& point_W) {
+  return (pose.T_W_S.inverse() * point_W).cast<float>();
+}
+
+/// Lets the mapper slide without seeing anything, then drops the points that rounding decides.
+std::vector<Eigen::Vector3d> exactPoints(const MapperModel& model, const ScanPose& pose,
+                                         const VoxelBox& window,
+                                         std::vector<Eigen::Vector3d> points_W) {
+  points_W.erase(std::remove_if(points_W.begin(), points_W.end(),
+                                [&](const auto& p) { return !model.isExact(pose, p, window); }),
+                 points_W.end());
+  return points_W;
+}
+
+PointScan asScan(const ScanPose& pose, const std::vector<Eigen::Vector3d>& points_W) {
+  PointScan scan;
+  for (const Eigen::Vector3d& p : points_W) scan.points.push_back(inSensorFrame(pose, p));
+  return scan;
+}
+
+class MapperModelTest : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
+  test::Random random(GetParam());
+  const MapperConfig config = randomConfig(random);
+  Mapper mapper(config);
+  MapperModel model(config);
+  Flight flight(&random);
+  std::size_t changes = 0;
+  for (int scan = 0; scan < 40; ++scan) {
+    SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", scan " + std::to_string(scan));
+    if (test::chance(random, 0.03)) mapper.reset(), model.reset();
+    const ScanPose pose = flight.next();
+    const ScanReport slide = mapper.integrate(PointScan(), pose);
+    const VoxelBox window = mapper.grid().window();
+    model.integrate(pose, {}, window);
+    ASSERT_EQ(slide.forgotten, model.forgotten());
+
+    const std::vector<Eigen::Vector3d> points_W =
+        exactPoints(model, pose, window, flight.look());
+    const ScanReport report = mapper.integrate(asScan(pose, points_W), pose);
+    model.integrate(pose, points_W, window);
+    ASSERT_EQ(mapper.grid().window(), window) << "the vehicle has not moved";
+    ASSERT_TRUE(model.equals(mapper.grid(), kElement));
+    ASSERT_EQ(report.lower, model.lowered());
+    ASSERT_EQ(report.raise, model.raised());
+    ASSERT_EQ(report.changeScore(), model.lowered() + model.raised());
+    ASSERT_EQ(report.readings.total, points_W.size());
+    changes += report.changeScore();
+  }
+  const bool is_roomy = std::min(config.mapSize().minCoeff(),
+                                 config.localUpdateRange().minCoeff()) >= 2.0;
+  if (config.map_mode == MapMode::kSliding && is_roomy) {
+    EXPECT_GT(changes, 0u) << "the flight shows nothing";
+  }
+}
+
+TEST_P(MapperModelTest, SameInputGivesTheSameMapInWhateverOrderThePointsCome) {
+  test::Random random(1000 + GetParam());
+  const MapperConfig config = randomConfig(random);
+  Mapper mapper(config), same(config), shuffled(config);
+  Flight flight(&random);
+  for (int scan = 0; scan < 60; ++scan) {
+    SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", scan " + std::to_string(scan));
+    const ScanPose pose = flight.next();
+    PointScan points = asScan(pose, flight.look());
+    mapper.integrate(points, pose);
+    same.integrate(points, pose);
+    std::shuffle(points.points.begin(), points.points.end(), random);
+    shuffled.integrate(points, pose);
+    const auto expected = mapper.snapshot();
+    for (Mapper* other : {&same, &shuffled}) {
+      const auto actual = other->snapshot();
+      ASSERT_EQ(actual->window(), expected->window());
+      for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+        ASSERT_EQ(actual->voxels(plane, expected->window()),
+                  expected->voxels(plane, expected->window()));
+      }
+    }
+  }
+}
+
+TEST_P(MapperModelTest, ADepthImageIsTheCloudOfItsPoints) {
+  test::Random random(2000 + GetParam());
+  MapperConfig config = randomConfig(random);
+  config.pixel_step = 1;
+  config.border_margin = 0;
+  config.min_depth = config.min_ray_length = 0.1;
+  Mapper from_image(config), from_points(config);
+  MapperModel model(config);
+  Flight flight(&random);
+  constexpr int kWidth = 12, kHeight = 9;
+  constexpr PinholeIntrinsics kCamera{8.0, 9.0, 5.5, 4.25};
+  for (int scan = 0; scan < 20; ++scan) {
+    SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", scan " + std::to_string(scan));
+    const ScanPose pose = flight.next();
+    from_image.integrate(PointScan(), pose);
+    from_points.integrate(PointScan(), pose);
+    std::vector<float> pixels(kWidth * kHeight, 0.0f);
+    PointScan points;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const float depth = static_cast<float>(test::uniformReal(random, 0.2, 12.0));
+      const Eigen::Vector3d point_C((i % kWidth - kCamera.cx) / kCamera.fx * depth,
+                                    (i / kWidth - kCamera.cy) / kCamera.fy * depth, depth);
+      if (!model.isExact(pose, pose.T_W_S * point_C, from_image.grid().window())) continue;
+      pixels[i] = depth;
+      points.points.push_back(point_C.cast<float>());
+    }
+    const DepthImage image{pixels.data(), DepthImage::Format::kFloat32, kWidth, kHeight,
+                           kWidth * sizeof(float)};
+    from_image.integrate(image, kCamera, pose);
+    from_points.integrate(points, pose);
+    const VoxelBox window = from_image.grid().window();
+    ASSERT_EQ(from_points.grid().window(), window);
+    for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+      ASSERT_EQ(from_image.snapshot()->voxels(plane, window),
+                from_points.snapshot()->voxels(plane, window));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, MapperModelTest, ::testing::Range(1u, 25u));
+
+}  // namespace
+}  // namespace fiimap

@@ -1,0 +1,210 @@
+#include "fiimap/mapper.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mapper_fixture.h"
+#include "oracle.h"
+
+namespace fiimap {
+namespace {
+
+using test::centerOfWindow;
+using test::kResolution;
+using test::poseAt;
+using test::seeAnObstacle;
+using test::smallConfig;
+
+TEST(MapperTest, WindowHasTheConfiguredSizeAroundTheVehicle) {
+  Mapper mapper(smallConfig());
+  mapper.integrate(PointScan(), poseAt({-1234.5, 77.7, -3.3}));
+  EXPECT_EQ(mapper.grid().window().size(), VoxelIndex(32, 24, 12));
+  EXPECT_LT((centerOfWindow(mapper) - Eigen::Vector3d(-1234.5, 77.7, -3.3)).cwiseAbs().maxCoeff(),
+            kResolution);
+}
+
+TEST(MapperTest, SeesAnObstacleAndTheFreeSpaceBeforeIt) {
+  Mapper mapper(smallConfig());
+  seeAnObstacle(&mapper, {0.125, 0.125, 0.125});
+  const auto snapshot = mapper.snapshot();
+  EXPECT_EQ(snapshot->voxels(Plane::kOccupied, snapshot->window()),
+            (std::vector<VoxelIndex>{{8, 0, 0}}));
+  for (int x = 0; x < 8; ++x) {
+    EXPECT_EQ(snapshot->occupancy(VoxelIndex(x, 0, 0)), Occupancy::kFree) << x;
+  }
+  EXPECT_EQ(snapshot->occupancy(VoxelIndex(9, 0, 0)), Occupancy::kUnknown);
+  EXPECT_EQ(snapshot->occupancy(VoxelIndex(4, 1, 0)), Occupancy::kUnknown);
+  EXPECT_EQ(snapshot->count(Plane::kInflated), 33) << "a ball of two voxels";
+  EXPECT_EQ(snapshot->inflation(VoxelIndex(6, 0, 0)), Inflation::kInflated);
+  EXPECT_EQ(snapshot->inflation(VoxelIndex(5, 0, 0)), Inflation::kFree);
+  EXPECT_EQ(snapshot->inflation(VoxelIndex(10, 0, 0)), Inflation::kInflated);
+}
+
+TEST(MapperTest, WindowFollowsPerAxisBeyondTheSlideDistance) {
+  // Less and more than the distance of 1 m, by more than one voxel.
+  constexpr double kWithin = 0.7, kBeyond = 1.3;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      Mapper mapper(smallConfig());
+      const Eigen::Vector3d start(0.125, 0.125, 0.125);
+      mapper.integrate(PointScan(), poseAt(start));
+      const VoxelBox window = mapper.grid().window();
+
+      Eigen::Vector3d position = start + Eigen::Vector3d(kWithin, -kWithin, kWithin);
+      mapper.integrate(PointScan(), poseAt(position));
+      EXPECT_EQ(mapper.grid().window(), window) << "axis " << axis << ", side " << side;
+
+      position[axis] = start[axis] + side * kBeyond;
+      mapper.integrate(PointScan(), poseAt(position));
+      for (int other = 0; other < 3; ++other) {
+        const int moved = mapper.grid().window().min[other] - window.min[other];
+        const double expected = other == axis ? side * kBeyond / kResolution : 0.0;
+        EXPECT_NEAR(moved, expected, other == axis ? 1.0 : 0.0)
+            << "axis " << axis << ", side " << side << ", moved along " << other;
+      }
+      EXPECT_LT(std::abs(centerOfWindow(mapper)[axis] - position[axis]), kResolution);
+    }
+  }
+}
+
+TEST(MapperTest, FixedWindowStaysWhereTheConfigurationPutsIt) {
+  MapperConfig config = smallConfig();
+  config.map_mode = MapMode::kFixed;
+  config.map_center_x = -20.0;
+  config.map_center_y = 5.0;
+  config.map_center_z = 1.5;
+  Mapper mapper(config);
+  const Eigen::Vector3d center(-20.0, 5.0, 1.5);
+  seeAnObstacle(&mapper, center, {1.0f, 0.0f, 0.0f});
+  const VoxelBox window = mapper.grid().window();
+  EXPECT_LE((centerOfWindow(mapper) - center).cwiseAbs().maxCoeff(), kResolution);
+  EXPECT_EQ(mapper.grid().count(Plane::kOccupied), 1);
+  for (const double far : {2.0, 3.9, 50.0, -1e6}) {
+    seeAnObstacle(&mapper, center + Eigen::Vector3d(far, far, -far));
+    EXPECT_EQ(mapper.grid().window(), window);
+  }
+  EXPECT_GE(mapper.grid().count(Plane::kOccupied), 1) << "nothing is forgotten";
+  mapper.reset();
+  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}));
+  EXPECT_EQ(mapper.grid().window(), window);
+}
+
+TEST(MapperTest, ScansChangeTheLocalUpdateRangeOnly) {
+  MapperConfig config = smallConfig();
+  config.local_update_range_x = 2.0;
+  config.local_update_range_y = 3.0;
+  config.local_update_range_z = 1.0;
+  Mapper mapper(config);
+  PointScan points;
+  test::Random random(101);
+  for (int i = 0; i < 300; ++i) {
+    points.points.push_back(Eigen::Vector3f::NullaryExpr(
+        [&](Eigen::Index) { return static_cast<float>(test::uniformReal(random, -4.0, 4.0)); }));
+  }
+  for (int i = 0; i < 4; ++i) mapper.integrate(points, poseAt({0.125, 0.125, 0.125}));
+  const auto snapshot = mapper.snapshot();
+  EXPECT_GT(snapshot->count(Plane::kKnown), 50);
+  for (const VoxelIndex& v : snapshot->voxels(Plane::kKnown, snapshot->window())) {
+    EXPECT_TRUE((VoxelBox{{-4, -6, -2}, {5, 7, 3}}.contains(v))) << test::describe(v);
+  }
+}
+
+TEST(MapperTest, TeleportForgetsEverything) {
+  Mapper mapper(smallConfig());
+  seeAnObstacle(&mapper, {0.1, 0.1, 0.1});
+  const ScanReport report = mapper.integrate(PointScan(), poseAt({-5000.0, 0.1, 0.1}));
+  EXPECT_EQ(report.forgotten, 1u);
+  for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+    EXPECT_EQ(mapper.grid().count(plane), 0);
+  }
+  mapper.integrate(PointScan(), poseAt({0.1, 0.1, 0.1}));
+  EXPECT_EQ(mapper.grid().count(Plane::kKnown), 0) << "and it stays forgotten";
+}
+
+TEST(MapperTest, ResetForgetsEverythingAndGoesOn) {
+  Mapper mapper(smallConfig());
+  seeAnObstacle(&mapper, {0.125, 0.125, 0.125});
+  const auto before = mapper.snapshot();
+  mapper.reset();
+  const auto after = mapper.snapshot();
+  EXPECT_EQ(after->info().sequence, before->info().sequence + 1) << "a reset does not restart it";
+  for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+    EXPECT_EQ(after->count(plane), 0);
+    EXPECT_GT(before->count(plane), 0) << "the older snapshot stays as it was";
+  }
+  EXPECT_EQ(mapper.integrate({{{2.0f, 0.0f, 0.0f}}}, poseAt({9.1, 0.1, 0.1})).lower, 0u)
+      << "certainty is forgotten too";
+  EXPECT_LT((centerOfWindow(mapper) - Eigen::Vector3d(9.1, 0.1, 0.1)).cwiseAbs().maxCoeff(),
+            kResolution);
+}
+
+TEST(MapperTest, MemoryStaysBoundedOverTenKilometres) {
+  Mapper mapper(smallConfig());
+  test::Random random(102);
+  std::size_t largest_at_first = 0, largest_later = 0;
+  // Out into negative coordinates and back up again.
+  constexpr int kScans = 8000;
+  for (int i = 0; i < kScans; ++i) {
+    PointScan points;
+    for (int k = 0; k < 8; ++k) {
+      points.points.push_back(Eigen::Vector3f::NullaryExpr(
+          [&](Eigen::Index) { return static_cast<float>(test::uniformReal(random, -3.0, 3.0)); }));
+    }
+    const double s = 1.25 * i;
+    mapper.integrate(points, poseAt({-0.7 * s, 0.6 * s - 4000.0, 20.0 * std::sin(s / 50.0)}));
+    if (i % 5 == 0) mapper.snapshot();
+    std::size_t& largest = i < kScans / 4 ? largest_at_first : largest_later;
+    largest = std::max(largest, mapper.memoryBytes());
+  }
+  EXPECT_LE(largest_later, largest_at_first);
+  EXPECT_LE(mapper.grid().memoryBytes(), mapper.grid().worstCaseMemoryBytes());
+  EXPECT_GT(mapper.grid().count(Plane::kKnown), 0);
+}
+
+TEST(MapperTest, SnapshotsCarryStampSequenceAndSettings) {
+  MapperConfig config = smallConfig();
+  config.inflation_shape = ElementShape::kCube;
+  config.virtual_walls = true;
+  config.virtual_floor = -0.4;
+  config.virtual_ceiling = 1.1;
+  Mapper mapper(config);
+  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 1600000000123456789));
+  const auto first = mapper.snapshot();
+  EXPECT_EQ(first->info().stamp_ns, 1600000000123456789);
+  EXPECT_EQ(first->info().sequence, 1u);
+  EXPECT_EQ(first->info().resolution, kResolution);
+  EXPECT_EQ(first->info().inflation_radius, 0.5);
+  EXPECT_EQ(first->info().inflation_shape, ElementShape::kCube);
+  EXPECT_EQ(first->occupancy(Eigen::Vector3d(0.0, 0.0, -0.45)), Occupancy::kOccupied);
+  EXPECT_EQ(first->occupancy(Eigen::Vector3d(0.0, 0.0, 1.15)), Occupancy::kOccupied);
+  EXPECT_EQ(first->occupancy(Eigen::Vector3d(0.0, 0.0, 0.5)), Occupancy::kUnknown);
+  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 1600000000200000000));
+  EXPECT_EQ(mapper.snapshot()->info().sequence, 2u);
+  EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 1600000000200000000);
+}
+
+TEST(MapperTest, WallsAreOffUnlessAskedFor) {
+  MapperConfig config = smallConfig();
+  config.virtual_floor = -0.4;
+  Mapper mapper(config);
+  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}));
+  EXPECT_EQ(mapper.snapshot()->occupancy(Eigen::Vector3d(0.0, 0.0, -0.45)), Occupancy::kUnknown);
+}
+
+TEST(MapperTest, ChangesItsInflationAtOnce) {
+  Mapper mapper(smallConfig());
+  seeAnObstacle(&mapper, {0.125, 0.125, 0.125});
+  ASSERT_EQ(mapper.grid().count(Plane::kInflated), 33);
+  mapper.setInflation(0.25, ElementShape::kCube);
+  EXPECT_EQ(mapper.grid().count(Plane::kInflated), 27);
+  EXPECT_EQ(mapper.snapshot()->info().inflation_radius, 0.25);
+  EXPECT_EQ(mapper.config().inflation_shape, ElementShape::kCube);
+  mapper.setInflation(0.5, ElementShape::kDiamond);
+  EXPECT_EQ(mapper.grid().count(Plane::kInflated), 25);
+  mapper.setInflation(0.0, ElementShape::kBall);
+  EXPECT_EQ(mapper.grid().count(Plane::kInflated), 1);
+}
+
+}  // namespace
+}  // namespace fiimap
