@@ -43,16 +43,16 @@ Reading checked(Reading reading) {
 Reading read(const MapperConfig& config, float metres) {
   const DepthImage image{&metres, DepthImage::Format::kFloat32, 1, 1, sizeof(metres)};
   Reading reading;
-  reading.count = DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(),
-                                                 &reading.scan);
+  reading.count =
+      DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(), &reading.scan);
   return checked(reading);
 }
 
 Reading readUnits(const MapperConfig& config, std::uint16_t units) {
   const DepthImage image{&units, DepthImage::Format::kUint16, 1, 1, sizeof(units)};
   Reading reading;
-  reading.count = DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(),
-                                                 &reading.scan);
+  reading.count =
+      DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(), &reading.scan);
   return checked(reading);
 }
 

@@ -35,7 +35,10 @@ template <typename Pixel>
 class Image {
  public:
   Image(int width, int height, Pixel value, int padding = 0)
-      : width_(width), height_(height), stride_(width + padding), pixels_(stride_ * height, Pixel(1)) {
+      : width_(width),
+        height_(height),
+        stride_(width + padding),
+        pixels_(stride_ * height, Pixel(1)) {
     for (int v = 0; v < height; ++v) {
       for (int u = 0; u < width; ++u) at(u, v) = value;
     }
@@ -232,8 +235,8 @@ TEST(DepthProjectorTest, AHugeFocalLengthLeavesOnePixel) {
   config.border_margin = 2;
   const Image<std::uint16_t> image(9, 9, 1000);
   RangeData scan;
-  const ReadingCount count = DepthProjector(config).project(
-      image.view(), {1e300, 1e300, 4.0, 4.0}, Eigen::Isometry3d::Identity(), &scan);
+  const ReadingCount count = DepthProjector(config).project(image.view(), {1e300, 1e300, 4.0, 4.0},
+                                                            Eigen::Isometry3d::Identity(), &scan);
   EXPECT_EQ(count.total, 1u);
 }
 
@@ -244,8 +247,8 @@ TEST(DepthProjectorTest, AMarginWiderThanTheImageLeavesNoPixel) {
   RangeData scan;
   scan.returns.resize(3);
   scan.misses.resize(3);
-  const ReadingCount count = DepthProjector(config).project(
-      image.view(), kCamera, Eigen::Isometry3d::Identity(), &scan);
+  const ReadingCount count =
+      DepthProjector(config).project(image.view(), kCamera, Eigen::Isometry3d::Identity(), &scan);
   EXPECT_EQ(count.total, 0u);
   EXPECT_TRUE(scan.returns.empty()) << "is filled anew";
   EXPECT_TRUE(scan.misses.empty()) << "is filled anew";

@@ -112,8 +112,8 @@ class InflatedWorld {
     constexpr double kRare = 0.08;
     if (chance(random_, kRare)) reset();
     if (chance(random_, kRare)) shared_ = grid_.shareTiles();
-    const VoxelIndex slide =
-        chance(random_, 0.5) ? VoxelIndex::Zero().eval() : randomSlide(random_, grid_.window().size());
+    const VoxelIndex slide = chance(random_, 0.5) ? VoxelIndex::Zero().eval()
+                                                  : randomSlide(random_, grid_.window().size());
     const VoxelBox next{grid_.window().min + slide, grid_.window().max + slide};
     update(slide, randomFlips(next, most_flips));
   }

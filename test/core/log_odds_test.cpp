@@ -121,8 +121,9 @@ TEST(LogOddsTest, ClassifiesAsFloatingPointAwayFromTheThreshold) {
       value = observe(log_odds, value, is_hit);
       reference.observe(is_hit);
       // The threshold is rounded too, and is at least one unit.
-      const double bound = std::max(reference.high() - reference.value(),
-                                    reference.value() - reference.low()) + log_odds.unit;
+      const double bound =
+          std::max(reference.high() - reference.value(), reference.value() - reference.low()) +
+          log_odds.unit;
       if (std::abs(reference.value() - threshold) <= bound) {
         ++close;
         continue;

@@ -35,7 +35,7 @@ inline ScanPose poseAt(const Eigen::Vector3d& position_W, std::int64_t stamp_ns 
 
 /// One point ahead, seen often enough to be occupied.
 inline void seeAnObstacle(Mapper* mapper, const Eigen::Vector3d& from_W,
-                   const Eigen::Vector3f& offset = {2.0f, 0.0f, 0.0f}) {
+                          const Eigen::Vector3f& offset = {2.0f, 0.0f, 0.0f}) {
   for (int i = 0; i < 3; ++i) mapper->integrate({{offset}}, poseAt(from_W));
 }
 

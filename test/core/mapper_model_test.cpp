@@ -51,7 +51,8 @@ class Flight {
     position_ += randomPoint(jumps ? 500.0 : test::chance(random_, 0.6) ? 0.2 : 1.0);
     for (Eigen::Vector3d& obstacle : obstacles_) {
       const bool is_out_of_sight = (obstacle - position_).norm() > 2.0 * kSight;
-      if (is_out_of_sight || test::chance(random_, 0.02)) obstacle = position_ + randomPoint(kSight);
+      if (is_out_of_sight || test::chance(random_, 0.02))
+        obstacle = position_ + randomPoint(kSight);
     }
     ScanPose pose;
     pose.vehicle_W = position_;
@@ -125,8 +126,7 @@ TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
     model.integrate(pose, {}, window);
     ASSERT_EQ(slide.forgotten, model.forgotten());
 
-    const std::vector<Eigen::Vector3d> points_W =
-        exactPoints(model, pose, window, flight.look());
+    const std::vector<Eigen::Vector3d> points_W = exactPoints(model, pose, window, flight.look());
     const ScanReport report = mapper.integrate(asScan(pose, points_W), pose);
     model.integrate(pose, points_W, window);
     ASSERT_EQ(mapper.grid().window(), window) << "the vehicle has not moved";
@@ -137,8 +137,8 @@ TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
     ASSERT_EQ(report.readings.total, points_W.size());
     changes += report.changeScore();
   }
-  const bool is_roomy = std::min(config.mapSize().minCoeff(),
-                                 config.localUpdateRange().minCoeff()) >= 2.0;
+  const bool is_roomy =
+      std::min(config.mapSize().minCoeff(), config.localUpdateRange().minCoeff()) >= 2.0;
   if (config.map_mode == MapMode::kSliding && is_roomy) {
     EXPECT_GT(changes, 0u) << "the flight shows nothing";
   }

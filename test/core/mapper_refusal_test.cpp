@@ -70,21 +70,23 @@ TEST(MapperRefusalTest, RefusesABadImageAndKeepsItsMap) {
   const std::vector<std::uint16_t> pixels(64, 1000);
   const DepthImage good{pixels.data(), DepthImage::Format::kUint16, 8, 8, 16};
   const PinholeIntrinsics camera{10.0, 10.0, 4.0, 4.0};
-  const auto expectRefused = [&](const std::function<void(DepthImage*, PinholeIntrinsics*)>& spoil) {
-    DepthImage image = good;
-    PinholeIntrinsics intrinsics = camera;
-    spoil(&image, &intrinsics);
-    EXPECT_THROW(mapper.integrate(image, intrinsics, poseAt({3.0, 3.0, 3.0})),
-                 std::invalid_argument);
-    EXPECT_TRUE(State(&mapper) == before);
-  };
+  const auto expectRefused =
+      [&](const std::function<void(DepthImage*, PinholeIntrinsics*)>& spoil) {
+        DepthImage image = good;
+        PinholeIntrinsics intrinsics = camera;
+        spoil(&image, &intrinsics);
+        EXPECT_THROW(mapper.integrate(image, intrinsics, poseAt({3.0, 3.0, 3.0})),
+                     std::invalid_argument);
+        EXPECT_TRUE(State(&mapper) == before);
+      };
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->data = nullptr; });
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->width = 0; });
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->width = -8; });
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->height = 0; });
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->height = -1; });
   expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->row_bytes = 15; });
-  expectRefused([](DepthImage* i, PinholeIntrinsics*) { i->format = DepthImage::Format::kFloat32; });
+  expectRefused(
+      [](DepthImage* i, PinholeIntrinsics*) { i->format = DepthImage::Format::kFloat32; });
   expectRefused([](DepthImage*, PinholeIntrinsics* k) { k->fx = 0.0; });
   expectRefused([](DepthImage*, PinholeIntrinsics* k) { k->fy = kNan; });
   expectRefused([](DepthImage*, PinholeIntrinsics* k) { k->cx = kInf; });

@@ -183,8 +183,8 @@ inline std::int64_t countBits(const SlidingGrid& grid, Plane plane) {
 inline ::testing::AssertionResult planeEquals(const SlidingGrid& grid, Plane plane,
                                               const VoxelField& expected) {
   if (grid.window() != expected.box()) {
-    return ::testing::AssertionFailure() << "window is " << describe(grid.window()) << ", not "
-                                         << describe(expected.box());
+    return ::testing::AssertionFailure()
+           << "window is " << describe(grid.window()) << ", not " << describe(expected.box());
   }
   int missing = 0, spurious = 0;
   std::string example;

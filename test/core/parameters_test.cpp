@@ -50,7 +50,8 @@ TEST(NumberParameterTest, RefusesBelowAndAboveItsRange) {
 TEST(NumberParameterTest, RefusesWhatIsNoFiniteNumber) {
   double field = 0.5;
   const Parameter parameter = numberParameter("gain", &field, -1e6, 1e6, "", "test");
-  for (const char* text : {"", " ", "abc", "1.0m", "0.5 0.6", "0,5", "nan", "inf", "-inf", "true"}) {
+  for (const char* text :
+       {"", " ", "abc", "1.0m", "0.5 0.6", "0,5", "nan", "inf", "-inf", "true"}) {
     EXPECT_NE(refusal(parameter, text), "") << "'" << text << "'";
     EXPECT_EQ(field, 0.5);
   }
@@ -61,8 +62,8 @@ TEST(NumberParameterTest, TextOfItsValueGivesItsValueBack) {
   double field = 0.0;
   const Parameter parameter = numberParameter("gain", &field, -1e9, 1e9, "", "test");
   for (int round = 0; round < 500; ++round) {
-    const double value = test::uniformReal(random, -1.0, 1.0) *
-                         std::pow(10.0, test::uniformInt(random, -6, 8));
+    const double value =
+        test::uniformReal(random, -1.0, 1.0) * std::pow(10.0, test::uniformInt(random, -6, 8));
     field = value;
     parameter.set(parameter.get());
     ASSERT_NEAR(field, value, 1e-14 * std::abs(value)) << "seed 21";
@@ -72,8 +73,7 @@ TEST(NumberParameterTest, TextOfItsValueGivesItsValueBack) {
 TEST(IntegerParameterTest, AcceptsItsRangeWithBothEnds) {
   int field = 0;
   const Parameter parameter = integerParameter("steps", &field, -3, 12, "", "test");
-  for (const auto& [text, value] :
-       std::map<std::string, int>{{"-3", -3}, {"0", 0}, {"12", 12}}) {
+  for (const auto& [text, value] : std::map<std::string, int>{{"-3", -3}, {"0", 0}, {"12", 12}}) {
     EXPECT_EQ(refusal(parameter, text), "");
     EXPECT_EQ(field, value);
   }
@@ -138,10 +138,9 @@ TEST(ChoiceParameterTest, TakesEachNameAndNoOther) {
 TEST(ApplyParametersTest, SetsWhatIsThereAndReturnsWhatNobodyKnows) {
   double gain = 1.0, offset = 7.0;
   int steps = 1;
-  const std::vector<Parameter> parameters = {
-      numberParameter("gain", &gain, 0.0, 10.0, "", ""),
-      numberParameter("offset", &offset, 0.0, 10.0, "", ""),
-      integerParameter("steps", &steps, 0, 10, "", "")};
+  const std::vector<Parameter> parameters = {numberParameter("gain", &gain, 0.0, 10.0, "", ""),
+                                             numberParameter("offset", &offset, 0.0, 10.0, "", ""),
+                                             integerParameter("steps", &steps, 0, 10, "", "")};
   const std::vector<std::string> unknown =
       applyParameters({{"gain", "2.5"}, {"stesp", "3"}, {"steps", "4"}, {"z", ""}}, parameters);
   EXPECT_EQ(gain, 2.5);

@@ -41,8 +41,9 @@ TEST(PointProjectorTest, ReturnsAreOffsetsFromTheSensorInWorldAxes) {
   for (int round = 0; round < 100; ++round) {
     Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();
     T_W_S.linear() =
-        Eigen::AngleAxisd(test::uniformReal(random, -3.0, 3.0),
-                          Eigen::Vector3d(0.3, test::uniformReal(random, -1.0, 1.0), 1.0).normalized())
+        Eigen::AngleAxisd(
+            test::uniformReal(random, -3.0, 3.0),
+            Eigen::Vector3d(0.3, test::uniformReal(random, -1.0, 1.0), 1.0).normalized())
             .toRotationMatrix();
     T_W_S.translation() << 12345.678, test::uniformReal(random, -1e5, 1e5), -3.0;
     const Eigen::Vector3f point_S = Eigen::Vector3f::NullaryExpr(
@@ -73,8 +74,8 @@ TEST(PointProjectorTest, PointsThatAreNotFiniteAreCountedAndLeftOut) {
 }
 
 TEST(PointProjectorTest, TooNearPointsAreLeftOut) {
-  const Projected result = project(
-      limits(0.5, 10.0), {{0.0f, 0.0f, 0.0f}, {0.3f, 0.3f, 0.2f}, {0.0f, -0.51f, 0.0f}});
+  const Projected result =
+      project(limits(0.5, 10.0), {{0.0f, 0.0f, 0.0f}, {0.3f, 0.3f, 0.2f}, {0.0f, -0.51f, 0.0f}});
   EXPECT_EQ(result.count.too_near, 2u);
   EXPECT_EQ(result.scan.returns.size(), 1u);
   EXPECT_TRUE(result.scan.misses.empty());

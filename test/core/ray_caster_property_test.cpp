@@ -41,8 +41,7 @@ class ScanMaker {
       const Eigen::Vector3f offset =
           (setting_.resolution * end(scan.origin / setting_.resolution) - scan.origin)
               .cast<float>();
-      const ExactPoint end =
-          inVoxels(scan.origin + offset.cast<double>(), setting_.resolution);
+      const ExactPoint end = inVoxels(scan.origin + offset.cast<double>(), setting_.resolution);
       const bool is_return = test::chance(random_, 0.6);
       if (!(is_return ? oracle->addReturn(origin, end) : oracle->addMiss(origin, end))) continue;
       (is_return ? scan.returns : scan.misses).push_back(offset);
@@ -135,9 +134,9 @@ Setting randomSetting(test::Random& random) {
   setting.box.min = test::chance(random, 0.7)
                         ? test::uniformVoxel(random, {-far / 1000, far / 1000})
                         : test::uniformVoxel(random, {-far, far});
-  setting.box.max = setting.box.min + VoxelIndex(test::uniformInt(random, 1, 20),
-                                                 test::uniformInt(random, 1, 40),
-                                                 kHeights[test::uniformInt(random, 0, 7)]);
+  setting.box.max =
+      setting.box.min + VoxelIndex(test::uniformInt(random, 1, 20), test::uniformInt(random, 1, 40),
+                                   kHeights[test::uniformInt(random, 0, 7)]);
   setting.end_cut = kCuts[test::uniformInt(random, 0, 6)];
   setting.place = static_cast<Place>(test::uniformInt(random, 0, 3));
   return setting;

@@ -16,7 +16,8 @@ constexpr double kResolution = 0.25;
 /// Coordinates of points are in voxels here.
 class Cast {
  public:
-  Cast(const VoxelBox& box, double end_cut) : box_(box), caster_(VoxelLattice(kResolution), end_cut) {}
+  Cast(const VoxelBox& box, double end_cut)
+      : box_(box), caster_(VoxelLattice(kResolution), end_cut) {}
 
   Cast& from(const Eigen::Vector3d& origin) {
     scan_.origin = origin * kResolution;

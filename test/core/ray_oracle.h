@@ -8,16 +8,18 @@
 
 #include "oracle.h"
 
-/// Exact reference of ray casting, by the definition in ray_caster.h: every voxel of the box against
-/// every segment, in extended precision. Points are in voxel edges from the world's origin.
+/// Exact reference of ray casting, by the definition in ray_caster.h: every voxel of the box
+/// against every segment, in extended precision. Points are in voxel edges from the world's origin.
 namespace fiimap::test {
 
 using ExactPoint = Eigen::Matrix<long double, 3, 1>;
 
-/// Voxels which a segment enters by less than this, in voxel edges, may be either: rounding decides.
+/// Voxels which a segment enters by less than this, in voxel edges, may be either: rounding
+/// decides.
 constexpr long double kRayTolerance = 1e-4L;
 
-/// Part of the line from + t (to - from), t in [0, 1], in a closed box; nothing when it stays outside.
+/// Part of the line from + t (to - from), t in [0, 1], in a closed box; nothing when it stays
+/// outside.
 struct Overlap {
   long double t_in, t_out;
 };
@@ -47,9 +49,7 @@ inline std::optional<Overlap> overlap(const ExactPoint& from, const ExactPoint& 
                  box.max.cast<long double>() + border);
 }
 
-inline VoxelIndex voxelOf(const ExactPoint& point) {
-  return point.array().floor().cast<int>();
-}
+inline VoxelIndex voxelOf(const ExactPoint& point) { return point.array().floor().cast<int>(); }
 
 inline ExactPoint centreOf(const VoxelIndex& v) {
   return v.cast<long double>() + ExactPoint::Constant(0.5L);
@@ -102,9 +102,8 @@ class RayOracle {
     const ExactPoint exit = origin + part->t_out * (end - origin);
     const VoxelIndex top = box_.max - VoxelIndex::Ones();
     int exit_axis = 0;
-    const ExactPoint beyond =
-        (exit - (box_.min + box_.max).cast<long double>() / 2).cwiseAbs() -
-        box_.size().cast<long double>() / 2;
+    const ExactPoint beyond = (exit - (box_.min + box_.max).cast<long double>() / 2).cwiseAbs() -
+                              box_.size().cast<long double>() / 2;
     beyond.maxCoeff(&exit_axis);
     if (nearFace(exit, exit_axis)) return false;
     // The exit lies on a face of the box: its voxel is the one inside.

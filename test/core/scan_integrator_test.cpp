@@ -51,7 +51,8 @@ Observations randomScan(const VoxelBox& box, double hit_share, test::Random& ran
                         ScanMask* mask) {
   Observations observed;
   mask->begin(box);
-  const int count = test::uniformInt(random, 0, static_cast<int>(std::min<std::int64_t>(box.volume(), 300)));
+  const int count =
+      test::uniformInt(random, 0, static_cast<int>(std::min<std::int64_t>(box.volume(), 300)));
   for (int i = 0; i < count; ++i) {
     const VoxelIndex v = test::voxelNearFaces(random, box);
     const VoxelIndex d = v - box.min;
@@ -64,7 +65,8 @@ Observations randomScan(const VoxelBox& box, double hit_share, test::Random& ran
     if (!is_hit || test::chance(random, 0.3)) {
       const int top = std::min(d.z() + test::uniformInt(random, 0, 5), box.size().z() - 1);
       mask->markFreeRun(d.x(), d.y(), d.z(), top);
-      for (int z = d.z(); z <= top; ++z) observed.misses.insert(box.min + VoxelIndex(d.x(), d.y(), z));
+      for (int z = d.z(); z <= top; ++z)
+        observed.misses.insert(box.min + VoxelIndex(d.x(), d.y(), z));
     }
   }
   for (const VoxelIndex& v : observed.hits) observed.misses.erase(v);
@@ -140,9 +142,10 @@ MapperConfig probabilities(double hit, double miss, double min, double max, doub
 
 /// The defaults; one that flips at every scan; strong clamps; a clamp that is hardly below the
 /// prior, so that it is the prior in fixed point; steps as large as the range.
-const MapperConfig kConfigs[] = {
-    MapperConfig(), probabilities(0.9, 0.1, 0.05, 0.95, 0.6), probabilities(0.7, 0.4, 0.3, 0.8, 0.75),
-    probabilities(0.7, 0.499, 0.4985, 0.97, 0.8), probabilities(0.999, 0.002, 0.001, 0.999, 0.501)};
+const MapperConfig kConfigs[] = {MapperConfig(), probabilities(0.9, 0.1, 0.05, 0.95, 0.6),
+                                 probabilities(0.7, 0.4, 0.3, 0.8, 0.75),
+                                 probabilities(0.7, 0.499, 0.4985, 0.97, 0.8),
+                                 probabilities(0.999, 0.002, 0.001, 0.999, 0.501)};
 
 class ScanIntegratorTest : public ::testing::TestWithParam<VoxelIndex> {};
 

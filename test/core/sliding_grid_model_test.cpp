@@ -62,11 +62,25 @@ class History {
 
   void step() {
     switch (test::uniformInt(random_, 0, 9)) {
-      case 0: case 1: case 2: slide(); break;
-      case 3: case 4: case 5: setBits(); break;
-      case 6: case 7: writeColumns(); break;
-      case 8: shared_.emplace_back(&grid_); break;
-      default: clearSomething();
+      case 0:
+      case 1:
+      case 2:
+        slide();
+        break;
+      case 3:
+      case 4:
+      case 5:
+        setBits();
+        break;
+      case 6:
+      case 7:
+        writeColumns();
+        break;
+      case 8:
+        shared_.emplace_back(&grid_);
+        break;
+      default:
+        clearSomething();
     }
   }
 
@@ -205,13 +219,14 @@ std::string nameOfSize(const ::testing::TestParamInfo<VoxelIndex>& info) {
          std::to_string(info.param.z());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sizes, SlidingGridModelTest,
-    ::testing::Values(VoxelIndex(1, 1, 1), VoxelIndex(5, 3, 1), VoxelIndex(1, 40, 2),
-                      VoxelIndex(33, 20, 30), VoxelIndex(40, 7, 60), VoxelIndex(32, 9, 63),
-                      VoxelIndex(64, 9, 64), VoxelIndex(6, 65, 64), VoxelIndex(9, 9, 65),
-                      VoxelIndex(5, 34, 120), VoxelIndex(3, 5, 128), VoxelIndex(2, 35, 130)),
-    nameOfSize);
+INSTANTIATE_TEST_SUITE_P(Sizes, SlidingGridModelTest,
+                         ::testing::Values(VoxelIndex(1, 1, 1), VoxelIndex(5, 3, 1),
+                                           VoxelIndex(1, 40, 2), VoxelIndex(33, 20, 30),
+                                           VoxelIndex(40, 7, 60), VoxelIndex(32, 9, 63),
+                                           VoxelIndex(64, 9, 64), VoxelIndex(6, 65, 64),
+                                           VoxelIndex(9, 9, 65), VoxelIndex(5, 34, 120),
+                                           VoxelIndex(3, 5, 128), VoxelIndex(2, 35, 130)),
+                         nameOfSize);
 
 }  // namespace
 }  // namespace fiimap

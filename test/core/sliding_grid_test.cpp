@@ -42,21 +42,26 @@ TEST(SlidingGridTest, KeepsVoxelsThatStayInWindow) {
   SlidingGrid grid({5, 6, 1});
   ChangeSet changes;
   grid.moveTo({0, 0, 0}, &changes);
+  // clang-format off
   draw({"#....#",
         ".#..#.",
         "..##..",
         ".#..#.",
         "#....#"}, Plane::kOccupied, &grid);
+  // clang-format on
 
   grid.moveTo({2, -1, 0}, &changes);
 
+  // clang-format off
   const Drawing expected = {"...##.",
                             "..#..#",
                             ".#....",
                             "......",
                             "......"};
+  // clang-format on
   EXPECT_EQ(drawingOf(grid, Plane::kOccupied), expected);
-  EXPECT_EQ(asSet(changes.forgotten), asSet({{0, 0, 0}, {0, 5, 0}, {1, 1, 0}, {1, 4, 0}, {4, 5, 0}}));
+  EXPECT_EQ(asSet(changes.forgotten),
+            asSet({{0, 0, 0}, {0, 5, 0}, {1, 1, 0}, {1, 4, 0}, {4, 5, 0}}));
   EXPECT_EQ(changes.forgotten.size(), 5u);
   EXPECT_EQ(grid.count(Plane::kOccupied), 5);
 }
@@ -105,7 +110,8 @@ TEST(SlidingGridTest, IgnoresVoxelsOutsideOfTheWindow) {
   }
 }
 
-/// Every axis and side: the voxels of a face, and a step of the window that leaves just them behind.
+/// Every axis and side: the voxels of a face, and a step of the window that leaves just them
+/// behind.
 TEST(SlidingGridTest, ForgetsTheFaceThatASlideLeavesBehind) {
   for (const VoxelIndex& size : {VoxelIndex(5, 4, 3), VoxelIndex(32, 64, 64),
                                  VoxelIndex(33, 31, 60), VoxelIndex(3, 3, 128)}) {
@@ -195,7 +201,8 @@ TEST(SlidingGridTest, HeightMaskHoldsTheHeightsOfTheRangeAndTheWindow) {
           for (int z = std::max(low, min_z); z < std::min(high, min_z + height); ++z) {
             expected.insert({0, 0, z});
           }
-          ASSERT_EQ(heights, expected) << height << " from " << min_z << ": " << low << ", " << high;
+          ASSERT_EQ(heights, expected)
+              << height << " from " << min_z << ": " << low << ", " << high;
         }
       }
     }

@@ -187,10 +187,10 @@ TEST_P(SnapshotPropertyTest, ExtractsTheVoxelsOfABoxInOrder) {
       const std::vector<VoxelIndex> voxels = snapshot.voxels(Plane::kInflated, box);
       ASSERT_EQ(test::VoxelSet(voxels.begin(), voxels.end()), expected);
       ASSERT_EQ(voxels.size(), expected.size());
-      ASSERT_TRUE(std::is_sorted(voxels.begin(), voxels.end(),
-                                 [](const VoxelIndex& p, const VoxelIndex& q) {
-                                   return std::make_pair(p.x(), p.y()) < std::make_pair(q.x(), q.y());
-                                 }));
+      ASSERT_TRUE(std::is_sorted(
+          voxels.begin(), voxels.end(), [](const VoxelIndex& p, const VoxelIndex& q) {
+            return std::make_pair(p.x(), p.y()) < std::make_pair(q.x(), q.y());
+          }));
     }
     ASSERT_TRUE(snapshot.voxels(Plane::kInflated, VoxelBox{{5, 5, 5}, {2, 9, 9}}).empty());
     ASSERT_TRUE(snapshot.voxels(Plane::kOccupied, wide).empty());

@@ -96,7 +96,8 @@ TEST(StructuringElementRadiusTest, WholeVoxelsKeepTheOutermostVoxels) {
         // The same radius reached by rounding from below, from above and by summing up.
         double sum = 0.0;
         for (int i = 0; i < n; ++i) sum += resolution;
-        for (const double radius : {n * resolution, sum, std::stod(std::to_string(n * resolution))}) {
+        for (const double radius :
+             {n * resolution, sum, std::stod(std::to_string(n * resolution))}) {
           const StructuringElement element(shape, radius, resolution);
           ASSERT_EQ(element.reach(), n) << radius << " / " << resolution;
           ASSERT_TRUE(element.contains({-n, 0, 0})) << radius << " / " << resolution;

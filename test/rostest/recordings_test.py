@@ -55,7 +55,8 @@ def skipping_test(file):
     """A test whose name tells in the summary why the others did not run."""
     def skip(_):
         raise unittest.SkipTest(f'no {file}')
-    name = f'test_SKIPPED_set_FIIMAP_DATA_to_the_folder_with_{file}'
+    # Without a dot, at which the summary would cut it.
+    name = f'test_SKIPPED_set_FIIMAP_DATA_to_the_folder_with_{file.replace(".bag", "")}'
     return type('SkippedTest', (unittest.TestCase,), {name: skip})
 
 

@@ -9,10 +9,10 @@ namespace fiimap {
 /// Seconds from one stamp to another, negative when `to` is earlier. Unlike ros::Duration it does
 /// not throw for stamps that are decades apart, as those of misconfigured drivers are.
 inline double secondsBetween(const ros::Time& from, const ros::Time& to) {
-  constexpr double kSecondsPerNanosecond = 1e-9;
+  constexpr double kNanosecondsPerSecond = 1e9;
   return static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
-                             static_cast<std::int64_t>(from.toNSec())) *
-         kSecondsPerNanosecond;
+                             static_cast<std::int64_t>(from.toNSec())) /
+         kNanosecondsPerSecond;
 }
 
 }  // namespace fiimap

@@ -1,0 +1,43 @@
+#include "fiimap/ros/drop_reason.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "fiimap/ros/scan_counters.h"
+
+namespace fiimap {
+namespace {
+
+TEST(DropReasonTest, EveryReasonHasItsOwnNameAndARemedy) {
+  std::set<std::string> names;
+  for (int i = 0; i < kDropReasonCount; ++i) {
+    const auto reason = static_cast<DropReason>(i);
+    EXPECT_TRUE(names.insert(nameOf(reason)).second) << nameOf(reason);
+    EXPECT_FALSE(std::string(remedyFor(reason)).empty());
+  }
+}
+
+TEST(DropReasonTest, TheTableIsInTheOrderOfTheReasons) {
+  EXPECT_STREQ(nameOf(DropReason::kZeroStamp), "zero_stamp");
+  EXPECT_STREQ(nameOf(DropReason::kPoseTimeout), "pose_timeout");
+  EXPECT_STREQ(nameOf(DropReason::kFrameMismatch), "frame_mismatch");
+  EXPECT_STREQ(nameOf(DropReason::kBadCameraInfo), "bad_camera_info");
+  EXPECT_STREQ(nameOf(DropReason::kOverload), "overload");
+}
+
+TEST(ScanCountersTest, AddsUp) {
+  ScanCounters counters;
+  counters.received = 5;
+  counters.integrated = 1;
+  counters.countDrop({DropReason::kPoseGap, "a"});
+  counters.countDrop({DropReason::kPoseGap, "b"});
+  counters.countDrop({DropReason::kOverload, "c"});
+  EXPECT_EQ(counters.dropped(DropReason::kPoseGap), 2u);
+  EXPECT_EQ(counters.dropped(), 3u);
+  EXPECT_EQ(counters.waiting(), 1u);
+  EXPECT_EQ(counters.last_drop.find("overload: c"), 0u);
+}
+
+}  // namespace
+}  // namespace fiimap

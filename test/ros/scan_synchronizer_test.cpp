@@ -1,0 +1,247 @@
+#include "fiimap/ros/scan_synchronizer.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
+
+#include "messages.h"
+
+namespace fiimap {
+namespace {
+
+/// Writes down what it hears, as words.
+class Diary : public ScanListener {
+ public:
+  void onScan(const SynchronizedScan& scan) override {
+    scans.push_back(scan);
+    events.push_back("scan");
+  }
+  void onDrop(const Drop& drop) override { events.push_back(nameOf(drop.reason)); }
+  void onTimeJump(const std::string&) override { events.push_back("jump"); }
+  void onWarning(const std::string& text) override { warnings.push_back(text); }
+
+  std::vector<SynchronizedScan> scans;
+  std::vector<std::string> events;
+  std::vector<std::string> warnings;
+};
+
+using Events = std::vector<std::string>;
+
+NodeConfig cloudConfig() {
+  NodeConfig config;
+  config.sensor = SensorKind::kPoints;
+  config.pose_source = PoseSource::kTransform;
+  config.extrinsics = ExtrinsicsSource::kParameter;
+  return config;
+}
+
+class ScanSynchronizerTest : public testing::Test {
+ protected:
+  ScanSynchronizerTest() { useConfig(cloudConfig()); }
+  void useConfig(const NodeConfig& config) { synchronizer_.emplace(config, &diary_); }
+  void addPose(double seconds) { synchronizer_->add(transformAt(seconds, seconds)); }
+  void addPoses(double from, double to) {
+    for (double seconds = from; seconds < to; seconds += 0.05) addPose(seconds);
+  }
+  void addCloud(double seconds, double received = 0.0) {
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+    cloud->header.stamp = at(seconds);
+    synchronizer_->add(ScanMessage(sensor_msgs::PointCloud2ConstPtr(cloud)), at(received));
+  }
+  void addImage(double seconds) {
+    const auto image = boost::make_shared<sensor_msgs::Image>();
+    image->header.stamp = at(seconds);
+    image->header.frame_id = "camera_link";
+    image->width = image->height = 4;
+    synchronizer_->add(ScanMessage(sensor_msgs::ImageConstPtr(image)), at(0.0));
+  }
+  void addCameraInfo(std::uint32_t size = 4) {
+    const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
+    info->width = info->height = size;
+    info->K = {4.0, 0.0, 2.0, 0.0, 4.0, 2.0, 0.0, 0.0, 1.0};
+    synchronizer_->add(sensor_msgs::CameraInfoConstPtr(info));
+  }
+
+  Diary diary_;
+  std::optional<ScanSynchronizer> synchronizer_;
+};
+
+TEST_F(ScanSynchronizerTest, GivesALateScanItsPoseAtOnce) {
+  addPoses(0.0, 0.5);
+  addCloud(0.12);
+  ASSERT_EQ(diary_.events, Events{"scan"});
+  EXPECT_NEAR(diary_.scans[0].pose.T_W_S.translation().x(), 0.12, 1e-6);
+  EXPECT_EQ(diary_.scans[0].pose.stamp_ns, static_cast<std::int64_t>(at(0.12).toNSec()));
+  EXPECT_NEAR(diary_.scans[0].pose_gap, 0.05, 1e-6);
+}
+
+TEST_F(ScanSynchronizerTest, AnEarlyScanWaitsForThePoseAfterIt) {
+  addPose(0.0);
+  addCloud(0.02);
+  EXPECT_EQ(synchronizer_->waiting(), 1u);
+  addPose(0.01);
+  EXPECT_TRUE(diary_.events.empty());
+  addPose(0.03);
+  EXPECT_EQ(diary_.events, Events{"scan"});
+  EXPECT_EQ(synchronizer_->waiting(), 0u);
+}
+
+TEST_F(ScanSynchronizerTest, KeepsTheOrderOfScans) {
+  addPose(0.0);
+  for (const double seconds : {0.01, 0.02, 0.03}) addCloud(seconds);
+  addPose(0.05);
+  ASSERT_EQ(diary_.scans.size(), 3u);
+  EXPECT_LT(diary_.scans[0].pose.stamp_ns, diary_.scans[1].pose.stamp_ns);
+  EXPECT_LT(diary_.scans[1].pose.stamp_ns, diary_.scans[2].pose.stamp_ns);
+}
+
+TEST_F(ScanSynchronizerTest, AddsTheTimeOffsetToScans) {
+  NodeConfig config = cloudConfig();
+  config.time_offset = -0.25;
+  useConfig(config);
+  addPoses(0.0, 0.5);
+  addCloud(0.5);
+  ASSERT_EQ(diary_.scans.size(), 1u);
+  EXPECT_NEAR(diary_.scans[0].pose.T_W_S.translation().x(), 0.25, 1e-6);
+}
+
+TEST_F(ScanSynchronizerTest, RefusesStampsThatAreZeroOrNotNewer) {
+  addPoses(0.0, 0.5);
+  const auto cloud = boost::make_shared<const sensor_msgs::PointCloud2>();
+  synchronizer_->add(ScanMessage(sensor_msgs::PointCloud2ConstPtr(cloud)), at(0.0));
+  addCloud(0.2);
+  addCloud(0.2);
+  addCloud(0.1);
+  addCloud(0.3);
+  EXPECT_EQ(diary_.events, (Events{"zero_stamp", "scan", "stale_stamp", "stale_stamp", "scan"}));
+}
+
+TEST_F(ScanSynchronizerTest, OdometryThatStopsCostsScansAfterTheWait) {
+  addPose(0.0);
+  for (const double seconds : {0.2, 0.4, 0.6}) addCloud(seconds);
+  EXPECT_TRUE(diary_.events.empty());
+  addCloud(0.8);
+  EXPECT_EQ(diary_.events, Events{"pose_timeout"});
+  addCloud(1.2);
+  EXPECT_EQ(diary_.events, (Events{"pose_timeout", "pose_timeout", "pose_timeout"}));
+  EXPECT_EQ(synchronizer_->waiting(), 2u);
+  addPose(1.18);
+  addPose(1.22);
+  EXPECT_EQ(diary_.events.back(), "scan");
+  EXPECT_EQ(synchronizer_->waiting(), 0u);
+}
+
+TEST_F(ScanSynchronizerTest, TheQueueIsBounded) {
+  NodeConfig config = cloudConfig();
+  config.scan_queue_size = 3;
+  useConfig(config);
+  addPose(0.0);
+  for (int i = 1; i <= 5; ++i) addCloud(0.01 * i);
+  EXPECT_EQ(diary_.events, (Events{"queue_full", "queue_full"}));
+  EXPECT_EQ(synchronizer_->waiting(), 3u);
+}
+
+TEST_F(ScanSynchronizerTest, ExpiresScansOnlyAfterTheWait) {
+  addPose(0.0);
+  addCloud(0.01, 10.0);
+  synchronizer_->expire(at(10.5));
+  EXPECT_TRUE(diary_.events.empty());
+  synchronizer_->expire(at(10.51));
+  EXPECT_EQ(diary_.events, Events{"pose_timeout"});
+}
+
+TEST_F(ScanSynchronizerTest, FinishDropsWhatStillWaits) {
+  addCloud(0.01);
+  addCloud(0.02);
+  synchronizer_->finish();
+  EXPECT_EQ(diary_.events, (Events{"pose_timeout", "pose_timeout"}));
+  EXPECT_EQ(synchronizer_->waiting(), 0u);
+}
+
+TEST_F(ScanSynchronizerTest, ALoopingBagStartsAnewWhenScansJumpBack) {
+  addPoses(10.0, 10.5);
+  addCloud(10.2);
+  addCloud(10.6);
+  addCloud(0.02);
+  EXPECT_EQ(diary_.events, (Events{"scan", "time_jump", "jump"}));
+  addPoses(0.0, 0.1);
+  EXPECT_EQ(diary_.events.back(), "scan");
+  EXPECT_NEAR(diary_.scans.back().pose.T_W_S.translation().x(), 0.02, 1e-6);
+}
+
+TEST_F(ScanSynchronizerTest, ALoopingBagStartsAnewWhenPosesJumpBack) {
+  addPoses(10.0, 10.5);
+  addCloud(10.6);
+  addPoses(0.0, 0.5);
+  EXPECT_EQ(diary_.events, (Events{"time_jump", "jump"}));
+  addCloud(0.2);
+  EXPECT_EQ(diary_.events, (Events{"time_jump", "jump", "scan"}));
+}
+
+TEST_F(ScanSynchronizerTest, LatePosesAreNoJump) {
+  addPose(0.0);
+  addPose(1.05);
+  addPose(0.1);
+  addCloud(0.05);
+  EXPECT_EQ(diary_.events, Events{"scan"});
+}
+
+TEST_F(ScanSynchronizerTest, ImagesWaitForTheirCameraInfo) {
+  addPoses(0.0, 0.5);
+  addImage(0.1);
+  EXPECT_EQ(synchronizer_->waiting(), 1u);
+  addCameraInfo();
+  ASSERT_EQ(diary_.events, Events{"scan"});
+  EXPECT_DOUBLE_EQ(diary_.scans[0].intrinsics.fx, 4.0);
+}
+
+TEST_F(ScanSynchronizerTest, ImagesWithoutCameraInfoAreDropped) {
+  addPoses(0.0, 0.5);
+  addImage(0.1);
+  addImage(0.7);
+  EXPECT_EQ(diary_.events, Events{"no_camera_info"});
+  addCameraInfo(5);
+  EXPECT_EQ(diary_.events, (Events{"no_camera_info", "bad_camera_info"}));
+}
+
+TEST_F(ScanSynchronizerTest, WarnsOnceOfABodyFrameUsedAsOpticalFrame) {
+  addCameraInfo();
+  addPoses(0.0, 1.0);
+  for (int i = 1; i <= 9; ++i) addImage(0.1 * i);
+  EXPECT_EQ(diary_.scans.size(), 9u);
+  ASSERT_EQ(diary_.warnings.size(), 1u);
+  EXPECT_NE(diary_.warnings[0].find("camera_link"), std::string::npos);
+}
+
+TEST_F(ScanSynchronizerTest, DoesNotWarnOfARotatedCamera) {
+  NodeConfig config = cloudConfig();
+  config.extrinsic_rotation = {-0.5, 0.5, -0.5, 0.5};
+  useConfig(config);
+  addCameraInfo();
+  addPoses(0.0, 1.0);
+  for (int i = 1; i <= 9; ++i) addImage(0.1 * i);
+  EXPECT_EQ(diary_.scans.size(), 9u);
+  EXPECT_TRUE(diary_.warnings.empty());
+}
+
+TEST_F(ScanSynchronizerTest, EveryScanEndsAsExactlyOneEvent) {
+  // A mixture of everything: stamps back and forth, poses with gaps and pauses.
+  int scans = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double now = 0.01 * ((i * 7) % 1600);
+    if (i % 3 != 0 && i % 500 < 350) addPose(now + 0.01 * (i % 11));
+    addCloud(now - 0.02 * (i % 5));
+    ++scans;
+  }
+  synchronizer_->finish();
+  const auto jumps = std::count(diary_.events.begin(), diary_.events.end(), "jump");
+  EXPECT_EQ(diary_.events.size(), static_cast<std::size_t>(scans + jumps));
+  EXPECT_GT(diary_.scans.size(), 0u);
+}
+
+}  // namespace
+}  // namespace fiimap
