@@ -4,6 +4,8 @@
 #include <future>
 #include <utility>
 
+#include "fiimap/ros/stamps.h"
+
 namespace fiimap {
 namespace {
 
@@ -38,14 +40,14 @@ void MappingThread::stop() {
 }
 
 void MappingThread::addScan(const ScanMessage& scan) {
-  queue_.pushScan([this, scan, received = readClock()] {
+  queue_.pushScan([this, scan, received = readClocks()] {
     ++counters_.received;
     synchronizer_.add(scan, received);
   });
 }
 
 void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
-  readClock();
+  readClocks();
   queue_.push([this, input = std::move(input)] { input(&synchronizer_); });
 }
 
@@ -67,14 +69,17 @@ bool MappingThread::reset() {
 
 /// Simulated time that goes back means that a bag began again, whatever the stamps say. Enqueued,
 /// so that messages of the old time stay in front of it.
-ros::Time MappingThread::readClock() {
-  const WaitingClock::Reading reading = clock_.read();
-  if (reading.step_back > kClockJump) {
-    queue_.push([this, step_back = reading.step_back] {
+Moment MappingThread::readClocks() {
+  const Moment now = {ros::Time::now(), Clock::now()};
+  const std::lock_guard<std::mutex> lock(clock_mutex_);
+  const double step_back = secondsBetween(now.ros, newest_time_);
+  newest_time_ = now.ros;
+  if (step_back > kClockJump) {
+    queue_.push([this, step_back] {
       synchronizer_.restart("the clock went back by " + std::to_string(step_back) + " s");
     });
   }
-  return reading.time;
+  return now;
 }
 
 ScanCounters MappingThread::counters() const {
@@ -93,7 +98,7 @@ void MappingThread::run() {
 
 void MappingThread::step() {
   // Before the queue is emptied, so that no scan expires while its pose is in the queue.
-  const ros::Time now = readClock();
+  const Moment now = readClocks();
   const InputQueue::Batch batch = queue_.take(ready_.empty() ? kPoll : kPoll * 0);
   for (std::size_t i = 0; i < batch.displaced_scans; ++i) {
     ++counters_.received;

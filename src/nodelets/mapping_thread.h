@@ -15,7 +15,6 @@
 #include "fiimap/ros/scan_decoder.h"
 #include "fiimap/ros/scan_synchronizer.h"
 #include "input_queue.h"
-#include "waiting_clock.h"
 
 namespace fiimap {
 
@@ -74,7 +73,7 @@ class MappingThread : private ScanListener {
   void run();
   void step();
   void integrateNext();
-  ros::Time readClock();
+  Moment readClocks();
   void forget(const std::string& why);
   void drop(const Drop& drop);
   void publishCounters();
@@ -95,7 +94,8 @@ class MappingThread : private ScanListener {
   ScanCounters counters_;
   std::deque<SynchronizedScan> ready_;
 
-  WaitingClock clock_;
+  std::mutex clock_mutex_;
+  ros::Time newest_time_;  // by the ROS clock
 
   mutable std::mutex counters_mutex_;
   ScanCounters published_counters_;

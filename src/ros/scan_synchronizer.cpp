@@ -1,5 +1,6 @@
 #include "fiimap/ros/scan_synchronizer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,12 @@ ros::Time shifted(const ros::Time& stamp, double offset) {
   const std::int64_t ns = static_cast<std::int64_t>(stamp.toNSec()) + offset_ns;
   if (ns <= 0 || static_cast<double>(ns) >= max) return ros::Time();
   return ros::Time().fromNSec(static_cast<std::uint64_t>(ns));
+}
+
+/// Seconds that passed by both clocks.
+double secondsOfBoth(const Moment& from, const Moment& to) {
+  const std::chrono::duration<double> steady = to.steady - from.steady;
+  return std::min(secondsBetween(from.ros, to.ros), steady.count());
 }
 
 }  // namespace
@@ -55,7 +62,7 @@ void ScanSynchronizer::add(const sensor_msgs::CameraInfoConstPtr& info) {
   emitReadyScans();
 }
 
-void ScanSynchronizer::add(const ScanMessage& scan, const ros::Time& received) {
+void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received) {
   const std_msgs::Header& header = headerOf(scan);
   const ros::Time stamp =
       header.stamp.isZero() ? ros::Time() : shifted(header.stamp, config_.time_offset);
@@ -127,9 +134,9 @@ void ScanSynchronizer::warn(const std::string& text) {
   if (!text.empty()) listener_->onWarning(text);
 }
 
-void ScanSynchronizer::expire(const ros::Time& now) {
+void ScanSynchronizer::expire(const Moment& now) {
   while (!waiting_.empty() &&
-         secondsBetween(waiting_.front().received, now) > config_.max_pose_wait) {
+         secondsOfBoth(waiting_.front().received, now) > config_.max_pose_wait) {
     dropFront(attempt(waiting_.front()).pose.why);
     emitReadyScans();
   }

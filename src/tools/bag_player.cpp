@@ -28,9 +28,9 @@ std::size_t BagPlayer::scans() const {
 
 void BagPlayer::play(ScanListener* listener, ScanCounters* counters) {
   ScanSynchronizer synchronizer(config_, listener);
-  const auto addScan = [&](const ScanMessage& scan, const ros::Time& received) {
+  const auto addScan = [&](const ScanMessage& scan) {
     ++counters->received;
-    synchronizer.add(scan, received);
+    synchronizer.add(scan);
   };
 
   std::vector<std::string> wanted = {topics_.pose_topic, kTf, kStaticTf};
@@ -43,9 +43,9 @@ void BagPlayer::play(ScanListener* listener, ScanCounters* counters) {
   for (const rosbag::MessageInstance& instance : view) {
     const std::string& topic = instance.getTopic();
     if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
-      addScan(sensor_msgs::ImageConstPtr(image), instance.getTime());
+      addScan(sensor_msgs::ImageConstPtr(image));
     } else if (const auto cloud = instance.instantiate<sensor_msgs::PointCloud2>()) {
-      addScan(sensor_msgs::PointCloud2ConstPtr(cloud), instance.getTime());
+      addScan(sensor_msgs::PointCloud2ConstPtr(cloud));
     } else if (const auto info = instance.instantiate<sensor_msgs::CameraInfo>()) {
       synchronizer.add(sensor_msgs::CameraInfoConstPtr(info));
     } else if (const auto transforms = instance.instantiate<tf2_msgs::TFMessage>()) {

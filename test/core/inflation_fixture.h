@@ -35,10 +35,6 @@ inline std::string nameOf(const Method& method) {
   return "";
 }
 
-inline std::string nameOf(ElementShape shape) {
-  return shape == ElementShape::kBall ? "ball" : shape == ElementShape::kCube ? "cube" : "diamond";
-}
-
 inline std::string nameOfMethod(const ::testing::TestParamInfo<Method>& info) {
   return nameOf(info.param);
 }

@@ -118,6 +118,10 @@ class VoxelField {
   std::vector<char> flags_;
 };
 
+inline std::string nameOf(ElementShape shape) {
+  return shape == ElementShape::kBall ? "ball" : shape == ElementShape::kCube ? "cube" : "diamond";
+}
+
 /// The structuring element's definition in whole millimetres: integer arithmetic, so no rounding.
 struct ElementDefinition {
   ElementShape shape = ElementShape::kBall;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -69,7 +71,12 @@ std::vector<ElementDefinition> definitions() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Definitions, StructuringElementTest, ::testing::ValuesIn(definitions()));
+INSTANTIATE_TEST_SUITE_P(Definitions, StructuringElementTest, ::testing::ValuesIn(definitions()),
+                         [](const auto& info) {
+                           return test::nameOf(info.param.shape) + "_" +
+                                  std::to_string(info.param.radius_mm) + "_per_" +
+                                  std::to_string(info.param.resolution_mm) + "mm";
+                         });
 
 TEST(StructuringElementSizeTest, IsTheKnownOneForSmallRadii) {
   EXPECT_EQ(StructuringElement(ElementShape::kBall, 0.1, 0.1).offsets().size(), 7u);

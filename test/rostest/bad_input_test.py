@@ -53,6 +53,7 @@ class BadInputTest(MapTest):
 
     def fly_until(self, condition, what, **changes):
         def step():
+            self.assertTrue(self.node.is_running(), self.node.output())
             self.vehicle.fly(**changes)
             time.sleep(PAUSE)
             return condition()

@@ -29,16 +29,16 @@ class HandleTest(ManagerTest):
         self.play(self.bag)
         listener.wait_for_integrated(SCANS)
 
-    def wait_for_messages(self, probe, count):
-        wait_for(lambda: self.report(probe)['messages'] >= count, f'{count} handles in {probe}')
+    def wait_for_report(self, probe, name, count):
+        wait_for(lambda: self.report(probe)[name] == count, f'{count} {name} in {probe}')
 
     def test_reader_in_the_same_manager_sees_consistent_snapshots(self):
         self.load_probe('probe')
         _, listener = self.load_map(PARAMETERS)
+        self.wait_for_report('probe', 'publishers', 1)
         self.play_all(listener)
-        self.wait_for_messages('probe', SCANS)
+        self.wait_for_report('probe', 'messages', SCANS)
         report = self.report('probe')
-        self.assertEqual(report['messages'], SCANS)
         self.assertEqual((report['null_handles'], report['strangers']), (0, 0))
         self.assertEqual(report['handles'], 1)
         self.assertEqual(report['sequence'], listener.newest().sequence)
@@ -57,16 +57,19 @@ class HandleTest(ManagerTest):
     def test_handle_outlives_its_nodelet_and_a_new_map_replaces_it(self):
         probe = self.load_probe('probe')
         map_loader, listener = self.load_map(PARAMETERS)
+        self.wait_for_report('probe', 'publishers', 1)
         self.play_all(listener)
-        self.wait_for_messages('probe', SCANS)
+        self.wait_for_report('probe', 'messages', SCANS)
 
         self.unload(map_loader)
+        self.wait_for_report('probe', 'publishers', 0)
         snapshots = self.report('probe')['snapshots']
         self.assertEqual(self.report('probe')['registered'], 1)
 
         map_loader, listener = self.load_map(PARAMETERS)
+        self.wait_for_report('probe', 'publishers', 1)
         self.play_all(listener)
-        self.wait_for_messages('probe', 2 * SCANS)
+        self.wait_for_report('probe', 'messages', 2 * SCANS)
         report = self.report('probe')
         self.assertEqual(report['handles'], 2)
         self.assertEqual((report['null_handles'], report['strangers']), (0, 0))

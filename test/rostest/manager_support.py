@@ -6,7 +6,7 @@ import rospy
 from std_srvs.srv import Trigger
 
 import rostest_support
-from rostest_support import program, wait_for
+from rostest_support import program
 
 PROBE_PACKAGE = pathlib.Path(__file__).resolve().parent / 'handle_probe'
 
@@ -22,8 +22,8 @@ class ManagerTest(rostest_support.MapTest):
         rospy.wait_for_service('/manager/list')
 
     def tearDown(self):
-        self.assertTrue(self.manager.is_running(), 'the manager died')
         super().tearDown()
+        self.assertTrue(self.manager.is_running(), 'the manager died')
 
     def load(self, nodelet, name, parameters):
         """Loads a nodelet. It is unloaded when the returned process is interrupted."""
@@ -34,7 +34,7 @@ class ManagerTest(rostest_support.MapTest):
     def load_map(self, parameters):
         loader = self.load('fiimap/MappingNodelet', 'map', parameters)
         listener = self.listen()
-        wait_for(lambda: listener.diagnostics, 'a mapping nodelet')
+        self.wait_for_map(listener, loader)
         return loader, listener
 
     def load_probe(self, name):

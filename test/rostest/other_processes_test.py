@@ -21,12 +21,14 @@ SCANS = 20
 
 class OtherProcessesTest(ManagerTest):
     def subscribe(self):
-        """Messages by topic, as they come in."""
+        """Messages by topic, as they come in, and the subscribers."""
         messages = {topic: [] for topic in TOPICS}
-        for topic, kind in TOPICS.items():
-            subscriber = rospy.Subscriber(topic, kind, messages[topic].append, buff_size=1 << 24)
+        subscribers = [
+            rospy.Subscriber(topic, kind, messages[topic].append, buff_size=1 << 24)
+            for topic, kind in TOPICS.items()]
+        for subscriber in subscribers:
             self.addCleanup(subscriber.unregister)
-        return messages
+        return messages, subscribers
 
     def record(self):
         """Starts recording every topic, and waits until the recorder is connected to all."""
@@ -44,15 +46,19 @@ class OtherProcessesTest(ManagerTest):
         form = ('depth', 'odometry')
         bag = make_bag_variants.write_variants(FLIGHT_BAG, self.directory, SCANS, [form])[form]
         self.load_probe('probe')
-        messages = self.subscribe()
+        messages, subscribers = self.subscribe()
         _, listener = self.load_map({**PATIENT_QUEUES, 'resolution': 0.1})
+        wait_for(lambda: all(s.get_num_connections() > 0 for s in subscribers), 'connections')
+        wait_for(lambda: self.report('probe')['publishers'] == 1, 'the connection of the probe')
         recorder, recorded_file = self.record()
         self.play(bag)
         listener.wait_for_integrated(SCANS)
         for topic, received in messages.items():
             wait_for(lambda received=received: received, topic)
         wait_for(lambda: len(messages['/map/map_handle']) == SCANS, 'map infos')
+        wait_for(lambda: len(messages['/map/statistics']) == SCANS, 'statistics')
 
+        wait_for(lambda: self.report('probe')['messages'] == SCANS, 'handles')
         report = self.report('probe')
         self.assertEqual((report['messages'], report['null_handles']), (SCANS, 0))
         self.check_infos(messages['/map/map_handle'], messages['/map/statistics'])

@@ -1,10 +1,8 @@
 """What the tests of the mapping node share: processes, recordings, and what the node publishes."""
 import json
-import math
 import os
 import pathlib
 import signal
-import struct
 import subprocess
 import tempfile
 import time
@@ -15,10 +13,10 @@ import rosbag
 import rospkg
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from sensor_msgs import point_cloud2
 from sensor_msgs.msg import PointCloud2
 
 from fiimap.msg import Statistics
+from voxels import voxels_of_cloud, voxels_of_pcd
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path('fiimap'))
 DATA = PACKAGE / 'data'
@@ -37,7 +35,9 @@ PATIENT_QUEUES = {
 
 def recording(name):
     """A recording that does not come with the package, or None when there is none."""
-    folders = [pathlib.Path(os.environ.get('FIIMAP_DATA', '')), PACKAGE.parent / 'shared' / 'data']
+    folders = [PACKAGE.parent / 'shared' / 'data']
+    if 'FIIMAP_DATA' in os.environ:
+        folders.insert(0, pathlib.Path(os.environ['FIIMAP_DATA']))
     found = [folder / name for folder in folders if (folder / name).is_file()]
     return found[0] if found else None
 
@@ -78,27 +78,6 @@ def wait_for(condition, what):
             return value
         time.sleep(POLL)
     raise AssertionError(f'waited in vain for {what}')
-
-
-def voxels_at(centres, resolution):
-    """Indices of the voxels around centres, which must be one per voxel."""
-    centres = list(centres)
-    voxels = {tuple(math.floor(c / resolution) for c in centre) for centre in centres}
-    assert len(voxels) == len(centres), f'{len(centres)} centres of {len(voxels)} voxels'
-    return voxels
-
-
-def voxels_of_cloud(cloud, resolution):
-    return voxels_at(point_cloud2.read_points(cloud, ('x', 'y', 'z')), resolution)
-
-
-def voxels_of_pcd(file, resolution):
-    """Of a binary PCD file with the fields x, y and z of type float."""
-    header, data = pathlib.Path(file).read_bytes().split(b'DATA binary\n', 1)
-    entries = dict(line.split(' ', 1) for line in header.decode().splitlines() if line[0] != '#')
-    assert (entries['FIELDS'], entries['SIZE'], entries['TYPE']) == ('x y z', '4 4 4', 'F F F')
-    assert len(data) == int(entries['POINTS']) * 12
-    return voxels_at(struct.iter_unpack('<fff', data), resolution)
 
 
 class Process:
@@ -151,6 +130,9 @@ class Map:
         for topic in ('occupied', 'inflated'):
             self._subscribers.append(rospy.Subscriber(
                 f'/{name}/{topic}', PointCloud2, self._on_cloud, topic, buff_size=1 << 24))
+
+    def is_connected(self):
+        return all(subscriber.get_num_connections() > 0 for subscriber in self._subscribers)
 
     def close(self):
         for subscriber in self._subscribers:
@@ -207,17 +189,18 @@ class MapTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as directory:
             self.directory = pathlib.Path(directory)
             super().run(result)
+            for process in reversed(self.processes):
+                if process.is_running():
+                    process.kill()
             if len(result.failures) + len(result.errors) > troubles:
                 for process in self.processes:
                     print(f'--- {process.name}\n{process.output()}')
+        for listener in self.maps:
+            listener.close()
         return result
 
     def tearDown(self):
-        for process in reversed(self.processes):
-            if process.is_running():
-                process.kill()
         for listener in self.maps:
-            listener.close()
             for statistics in listener.statistics:
                 self.assert_conserved(statistics)
 
@@ -246,8 +229,15 @@ class MapTest(unittest.TestCase):
         self.set_parameters(parameters, name)
         listener = self.listen(name)
         process = self.start(program('fiimap', 'mapping_node'), f'__name:={name}', *arguments)
-        wait_for(lambda: listener.diagnostics or not process.is_running(), 'a mapping node')
+        self.wait_for_map(listener, process)
         return process, listener
+
+    def wait_for_map(self, listener, process):
+        """Waits until a map is ready for input and its listener hears all."""
+        def is_ready():
+            self.assertTrue(process.is_running(), process.output())
+            return listener.is_connected() and listener.diagnostics
+        wait_for(is_ready, f'the map {listener.name}')
 
     def play(self, bag, *arguments):
         """Plays a bag to its end; every topic of it must have a subscriber."""

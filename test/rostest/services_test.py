@@ -8,8 +8,8 @@ from std_srvs.srv import Trigger
 
 import make_bag_variants
 from fiimap.srv import SaveMap
-from rostest_support import (FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, voxels_at,
-                             voxels_of_cloud, voxels_of_pcd, wait_for)
+from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, wait_for
+from voxels import voxels_at, voxels_of_cloud, voxels_of_pcd
 
 FORM = ('points', 'odometry')
 RESOLUTION = 0.1

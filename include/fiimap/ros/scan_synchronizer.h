@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <chrono>
 #include <deque>
 #include <string>
 #include <variant>
@@ -18,6 +19,12 @@
 namespace fiimap {
 
 using ScanMessage = std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::PointCloud2ConstPtr>;
+
+/// A moment by two clocks.
+struct Moment {
+  ros::Time ros;  ///< simulated time in a replay
+  std::chrono::steady_clock::time_point steady;
+};
 
 /// A scan with all that is needed to integrate it.
 struct SynchronizedScan {
@@ -54,11 +61,13 @@ class ScanSynchronizer {
   void add(const geometry_msgs::TransformStamped& pose);
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
   void add(const sensor_msgs::CameraInfoConstPtr& info);
-  /// \param received when the message arrived, by the clock that expire() is given.
-  void add(const ScanMessage& scan, const ros::Time& received);
+  /// \param received when the message arrived; matters for expire() only.
+  void add(const ScanMessage& scan, const Moment& received = Moment());
 
-  /// Drops scans that arrived more than max_pose_wait ago and still lack something.
-  void expire(const ros::Time& now);
+  /// Drops scans that arrived more than max_pose_wait ago and still lack something, for when no
+  /// newer scans come. Ago by both clocks: a slow replay costs no patience, nor does one that
+  /// stalls and then lets simulated time run ahead of messages on their way.
+  void expire(const Moment& now);
   /// Drops all scans that wait: no more input will come.
   void finish();
   /// Drops all scans that wait, forgets poses and moving transforms and reports a time jump; for
@@ -73,7 +82,7 @@ class ScanSynchronizer {
     ScanMessage message;
     std::string frame;
     ros::Time stamp;  // time_offset included
-    ros::Time received;
+    Moment received;
   };
   struct Attempt {
     ResolvedPose pose;

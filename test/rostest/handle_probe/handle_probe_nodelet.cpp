@@ -8,10 +8,10 @@
 #include <thread>
 
 #include <nodelet/nodelet.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
+#include <pluginlib/class_list_macros.hpp>
 
 #include "fiimap/map_handle.h"
 #include "fiimap/ros/map_handle_message.h"
@@ -56,8 +56,7 @@ void HandleProbe::onInit() {
   ros::NodeHandle& node = getPrivateNodeHandle();
   if (!node.getParam("map", map_)) throw std::runtime_error("parameter map is not set");
   constexpr int kQueue = 100;
-  handle_subscriber_ =
-      node.subscribe(map_ + "/map_handle", kQueue, &HandleProbe::onHandle, this);
+  handle_subscriber_ = node.subscribe(map_ + "/map_handle", kQueue, &HandleProbe::onHandle, this);
   cloud_subscriber_ = node.subscribe(map_ + "/occupied", kQueue, &HandleProbe::onCloud, this);
   report_server_ = node.advertiseService("report", &HandleProbe::onReport, this);
   thread_ = std::thread([this] { read(); });
@@ -105,9 +104,9 @@ void HandleProbe::read() {
 bool HandleProbe::onReport(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::ostringstream report;
-  report << "messages=" << messages_ << " null_handles=" << null_handles_
-         << " strangers=" << strangers_ << " handles=" << handles_
-         << " registered=" << (MapRegistry::find(map_) ? 1 : 0)
+  report << "publishers=" << handle_subscriber_.getNumPublishers() << " messages=" << messages_
+         << " null_handles=" << null_handles_ << " strangers=" << strangers_
+         << " handles=" << handles_ << " registered=" << (MapRegistry::find(map_) ? 1 : 0)
          << " snapshots=" << check_.snapshots() << " clouds=" << check_.clouds()
          << " sequence=" << check_.sequence();
   response.success = check_.failure().empty();
