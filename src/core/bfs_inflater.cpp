@@ -38,19 +38,29 @@ BfsInflater::BfsInflater(const StructuringElement& element, int connectivity)
     : neighbours_(makeNeighbours(connectivity)),
       element_(element.reach()),
       doubled_element_(2 * element.reach()) {
-  for (const VoxelIndex& a : element.offsets()) {
-    element_.insert(a);
-    // A column of E + E is convex too: its ends come from the ends of columns of E.
-    for (int dx = -element.reach(); dx <= element.reach(); ++dx) {
-      for (int dy = -element.reach(); dy <= element.reach(); ++dy) {
-        const int half_height = element.halfHeight(dx, dy);
-        for (int dz = -half_height; half_height >= 0 && dz <= half_height; ++dz) {
-          doubled_element_.insert(a + VoxelIndex(dx, dy, dz));
+  for (const VoxelIndex& offset : element.offsets()) element_.insert(offset);
+  insertDoubled(element);
+  visited_.resize(doubled_element_.cells());
+}
+
+/// Columns of E are convex, so those of E + E are, too: as high as the highest sum of two.
+void BfsInflater::insertDoubled(const StructuringElement& element) {
+  const int reach = element.reach();
+  for (int x = -2 * reach; x <= 2 * reach; ++x) {
+    for (int y = -2 * reach; y <= 2 * reach; ++y) {
+      int half_height = -1;
+      for (int dx = -reach; dx <= reach; ++dx) {
+        for (int dy = -reach; dy <= reach; ++dy) {
+          const int a = element.halfHeight(dx, dy);
+          const int b = element.halfHeight(x - dx, y - dy);
+          if (a >= 0 && b >= 0) half_height = std::max(half_height, a + b);
         }
+      }
+      for (int z = -half_height; half_height >= 0 && z <= half_height; ++z) {
+        doubled_element_.insert({x, y, z});
       }
     }
   }
-  visited_.resize(doubled_element_.cells());
 }
 
 void BfsInflater::update(const ChangeSet& changes, SlidingGrid* grid) {

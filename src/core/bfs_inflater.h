@@ -40,6 +40,7 @@ class BfsInflater : public Inflater {
     std::vector<std::uint8_t> flags_;
   };
 
+  void insertDoubled(const StructuringElement& element);
   void raise(const VoxelIndex& source, SlidingGrid* grid);
   template <typename Visitor>
   void search(const Region& region, Visitor&& visit);

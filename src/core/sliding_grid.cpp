@@ -96,6 +96,14 @@ void SlidingGrid::forgetColumns(int slot, const VoxelBox& kept,
 void SlidingGrid::forgetColumn(int x, int y, const std::uint64_t* kept_heights,
                                std::vector<VoxelIndex>* forgotten) {
   const int words = layout_.words();
+  // Mostly nothing leaves.
+  std::uint64_t leaving = 0;
+  for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+    const std::uint64_t* bits = column(plane, x, y);
+    for (int w = 0; w < words; ++w) leaving |= bits[w] & ~kept_heights[w];
+  }
+  if (leaving == 0) return;
+
   for (int w = 0; w < words; ++w) {
     scratch_column_[w] = column(Plane::kOccupied, x, y)[w] & ~kept_heights[w];
   }

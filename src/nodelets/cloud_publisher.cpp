@@ -28,13 +28,14 @@ CloudPublisher::CloudPublisher(ros::NodeHandle node, const std::string& map_fram
 }
 
 CloudPublisher::~CloudPublisher() {
-  for (ros::Publisher* publisher : {&occupied_, &inflated_, &window_}) publisher->shutdown();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
   thread_.join();
+  // Only now, because the thread publishes; subscriber callbacks end here.
+  for (ros::Publisher* publisher : {&occupied_, &inflated_, &window_}) publisher->shutdown();
 }
 
 void CloudPublisher::offer(std::shared_ptr<const Snapshot> snapshot, const VoxelBox& update_box) {

@@ -7,7 +7,8 @@
 namespace fiimap {
 namespace {
 
-constexpr int kScanQueue = 10;
+// Much longer than our own queue, which counts what it drops; ROS's does not.
+constexpr int kScanQueue = 100;
 constexpr int kPoseQueue = 1000;
 
 template <typename Message>

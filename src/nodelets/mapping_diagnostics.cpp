@@ -99,7 +99,7 @@ void MappingDiagnostics::reportInputs(Status& status) {
   status.addf("pose rate [Hz]", "%.1f", rate(before_.poses, now_.poses));
   status.add("scans received", counters.received);
   status.add("scans integrated", counters.integrated);
-  status.add("scans waiting", counters.waiting());
+  status.add("scans waiting", counters.waiting);
   status.add("scans dropped", counters.dropped());
   for (int i = 0; i < kDropReasonCount; ++i) {
     const auto reason = static_cast<DropReason>(i);
@@ -120,6 +120,9 @@ void MappingDiagnostics::reportMap(Status& status) {
   const Inflation at_vehicle = snapshot.inflation(update_->pose.vehicle_W);
   if (!updating) {
     status.summary(DiagnosticStatus::ERROR, "the map is not updated, see inputs");
+  } else if (at_vehicle == Inflation::kOutside) {
+    status.summary(DiagnosticStatus::ERROR,
+                   "the vehicle is outside of the map: see map_mode, map_center and map_size");
   } else if (at_vehicle == Inflation::kInflated) {
     status.summary(DiagnosticStatus::WARN, "the vehicle is inside an obstacle or its inflation");
   } else if (update_->report.readings.returns == 0) {

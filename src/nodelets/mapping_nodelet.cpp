@@ -19,8 +19,8 @@ namespace {
 constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
 constexpr double kDiagnosticsPeriod = 1.0;      // s
-constexpr double kMissingInputPeriod = 10.0;    // s between warnings
-constexpr std::chrono::seconds kDropPeriod{5};  // between warnings of one reason
+constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
+constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one reason
 constexpr double kMegabyte = 1e6;
 
 /// Parameters of others that live in our namespace.
@@ -69,7 +69,7 @@ void MappingNodelet::configureFromParameters() {
 void MappingNodelet::logStart(const Mapper& mapper) {
   const VoxelIndex size = mapper.grid().window().size();
   const double memory = static_cast<double>(mapper.grid().worstCaseMemoryBytes());
-  NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, at most %.0f MB when all is seen",
+  NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, about %.0f MB when all is seen",
                mapper_config_.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
   NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels",
                mapper_config_.inflation_radius,
@@ -127,8 +127,11 @@ bool MappingNodelet::onSaveService(SaveMap::Request& request, SaveMap::Response&
 
 void MappingNodelet::onDiagnosticsTimer() {
   const std::string missing = diagnostics_->publish();
-  if (missing.empty()) return;
-  ROS_WARN_DELAYED_THROTTLE_NAMED(kMissingInputPeriod, getName(), "%s", missing.c_str());
+  // By the steady clock: without /clock the ROS clock stands still, and that is a reason to warn.
+  const auto now = std::chrono::steady_clock::now();
+  if (missing.empty() || now - missing_warned_ < kMissingInputPeriod) return;
+  missing_warned_ = now;
+  NODELET_WARN("%s", missing.c_str());
 }
 
 void MappingNodelet::onUpdate(const MapUpdate& update) {

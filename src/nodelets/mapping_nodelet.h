@@ -59,6 +59,8 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer diagnostics_timer_;
+  // Of the diagnostics timer alone; a while after the start nothing is missing yet.
+  std::chrono::steady_clock::time_point missing_warned_ = std::chrono::steady_clock::now();
   std::mutex save_mutex_;
 };
 

@@ -70,8 +70,9 @@ bool MappingThread::reset() {
 /// Simulated time that goes back means that a bag began again, whatever the stamps say. Enqueued,
 /// so that messages of the old time stay in front of it.
 Moment MappingThread::readClocks() {
-  const Moment now = {ros::Time::now(), Clock::now()};
+  // Read under the lock: a thread that comes late with an old time would look like a jump.
   const std::lock_guard<std::mutex> lock(clock_mutex_);
+  const Moment now = {ros::Time::now(), Clock::now()};
   const double step_back = secondsBetween(now.ros, newest_time_);
   newest_time_ = now.ros;
   if (step_back > kClockJump) {
@@ -87,7 +88,10 @@ ScanCounters MappingThread::counters() const {
   return published_counters_;
 }
 
+void MappingThread::countWaiting() { counters_.waiting = synchronizer_.waiting() + ready_.size(); }
+
 void MappingThread::publishCounters() {
+  countWaiting();
   const std::lock_guard<std::mutex> lock(counters_mutex_);
   published_counters_ = counters_;
 }
@@ -124,6 +128,7 @@ void MappingThread::integrateNext() {
     return;
   }
   ++counters_.integrated;
+  countWaiting();
   const Clock::time_point start = Clock::now();
   update.snapshot = mapper_.snapshot();
   update.report.times_ms.snapshot = millisecondsSince(start);

@@ -76,6 +76,7 @@ class MappingThread : private ScanListener {
   Moment readClocks();
   void forget(const std::string& why);
   void drop(const Drop& drop);
+  void countWaiting();
   void publishCounters();
 
   void onScan(const SynchronizedScan& scan) override;

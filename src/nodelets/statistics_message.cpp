@@ -35,7 +35,7 @@ void setCounters(const ScanCounters& counters, Statistics* message) {
   message->received = counters.received;
   message->integrated = counters.integrated;
   message->dropped = counters.dropped();
-  message->waiting = counters.waiting();
+  message->waiting = counters.waiting;
   for (int i = 0; i < kDropReasonCount; ++i) {
     const auto reason = static_cast<DropReason>(i);
     if (counters.dropped(reason) == 0) continue;

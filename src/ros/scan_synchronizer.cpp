@@ -42,7 +42,9 @@ ScanSynchronizer::ScanSynchronizer(const NodeConfig& config, ScanListener* liste
 template <typename PoseMessage>
 void ScanSynchronizer::addPose(const PoseMessage& pose) {
   const ros::Time& stamp = pose.header.stamp;
-  if (!stamp.isZero()) checkForJump(stamp, poses_.newestPose(), "poses");
+  // Poses of another frame are refused, so they must not tell the time either.
+  const bool is_ours = plainFrame(pose.header.frame_id) == config_.map_frame;
+  if (is_ours && !stamp.isZero()) checkForJump(stamp, poses_.newestPose(), "poses");
   poses_.add(pose);
   emitReadyScans();
 }

@@ -12,9 +12,7 @@ namespace fiimap {
 class ProgressBar {
  public:
   explicit ProgressBar(std::size_t total) : total_(total), visible_(isatty(STDERR_FILENO) != 0) {}
-  ~ProgressBar() {
-    if (visible_) std::fputc('\n', stderr);
-  }
+  ~ProgressBar() { end(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
@@ -25,6 +23,12 @@ class ProgressBar {
     const std::string filled(percent * kWidth / 100, '#');
     std::fprintf(stderr, "\r[%-*s] %3d %%", kWidth, filled.c_str(), percent);
     std::fflush(stderr);
+  }
+
+  /// Ends the line; shows nothing any more.
+  void end() {
+    if (visible_) std::fputc('\n', stderr);
+    visible_ = false;
   }
 
  private:

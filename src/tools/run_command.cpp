@@ -82,6 +82,7 @@ class MapBuilder : public ScanListener {
 
   /// \return the figures; the last scan is always among the verified ones.
   RunReport finish() {
+    progress_.end();
     if (verify_every_ > 0 && !last_is_verified_) verify();
     if (snapshot_ == nullptr) snapshot_ = mapper_.snapshot();
     report_.finish(counters_, *snapshot_, mapper_.memoryBytes());
@@ -129,8 +130,8 @@ class MapBuilder : public ScanListener {
   std::vector<std::string> warnings_;
 };
 
-nlohmann::ordered_json describe(Settings* settings) {
-  nlohmann::ordered_json out;
+nlohmann::json describe(Settings* settings) {
+  nlohmann::json out;
   for (const auto& list : {mapperParameters(&settings->mapper), nodeParameters(&settings->node),
                            settings->topics.parameters()}) {
     for (const Parameter& parameter : list) out[parameter.name] = parameter.get();
@@ -138,7 +139,7 @@ nlohmann::ordered_json describe(Settings* settings) {
   return out;
 }
 
-void writeJson(const std::string& file, const nlohmann::ordered_json& json) {
+void writeJson(const std::string& file, const nlohmann::json& json) {
   std::ofstream stream(file);
   stream << json.dump(2) << '\n';
   if (!stream.flush()) throw std::runtime_error("cannot write " + file);
@@ -171,7 +172,7 @@ int run(const RunOptions& options) {
   for (const std::string& warning : builder.warnings()) std::cerr << "warning: " << warning << '\n';
   std::cout << options.bag << '\n' << report.text();
   if (!options.json.empty()) {
-    nlohmann::ordered_json json = report.json();
+    nlohmann::json json = report.json();
     json["bag"] = options.bag;
     json["warnings"] = builder.warnings();
     json["parameters"] = describe(&settings);

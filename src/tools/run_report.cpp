@@ -25,7 +25,7 @@ const std::vector<std::pair<std::string, double StageTimes::*>>& stages() {
 }
 
 /// Nearest-rank quantiles.
-nlohmann::ordered_json quantiles(const std::vector<ScanReport>& scans, const Getter& get) {
+nlohmann::json quantiles(const std::vector<ScanReport>& scans, const Getter& get) {
   std::vector<double> values;
   for (const ScanReport& scan : scans) values.push_back(get(scan));
   if (values.empty()) values.push_back(0.0);
@@ -37,7 +37,7 @@ nlohmann::ordered_json quantiles(const std::vector<ScanReport>& scans, const Get
   return {{"median", at(kMedian)}, {"p95", at(kP95)}, {"max", values.back()}};
 }
 
-std::string tableRow(const std::string& name, const nlohmann::ordered_json& values) {
+std::string tableRow(const std::string& name, const nlohmann::json& values) {
   char row[96];
   std::snprintf(row, sizeof(row), "  %-14s %10.3f %10.3f %10.3f\n", name.c_str(),
                 values["median"].get<double>(), values["p95"].get<double>(),
@@ -63,11 +63,11 @@ void RunReport::finish(const ScanCounters& counters, const Snapshot& snapshot,
   memory_bytes_ = memory_bytes;
 }
 
-nlohmann::ordered_json RunReport::json() const {
-  nlohmann::ordered_json out;
+nlohmann::json RunReport::json() const {
+  nlohmann::json out;
   out["scans"] = counters_.received;
   out["integrated"] = counters_.integrated;
-  out["dropped"] = nlohmann::ordered_json::object();
+  out["dropped"] = nlohmann::json::object();
   for (int i = 0; i < kDropReasonCount; ++i) {
     const auto reason = static_cast<DropReason>(i);
     if (counters_.dropped(reason) > 0) out["dropped"][nameOf(reason)] = counters_.dropped(reason);
@@ -89,7 +89,7 @@ nlohmann::ordered_json RunReport::json() const {
 }
 
 std::string RunReport::text() const {
-  const nlohmann::ordered_json figures = json();
+  const nlohmann::json figures = json();
   std::string text = "scans " + std::to_string(counters_.received) + ", integrated " +
                      std::to_string(counters_.integrated) + ", dropped " +
                      std::to_string(counters_.dropped());

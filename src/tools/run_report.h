@@ -22,7 +22,7 @@ class RunReport {
 
   std::int64_t mismatches() const { return mismatches_; }
   /// Keys as documented in README.md.
-  nlohmann::ordered_json json() const;
+  nlohmann::json json() const;
   /// The same for people.
   std::string text() const;
 

@@ -35,7 +35,6 @@ TEST(ScanCountersTest, AddsUp) {
   counters.countDrop({DropReason::kOverload, "c"});
   EXPECT_EQ(counters.dropped(DropReason::kPoseGap), 2u);
   EXPECT_EQ(counters.dropped(), 3u);
-  EXPECT_EQ(counters.waiting(), 1u);
   EXPECT_EQ(counters.last_drop.find("overload: c"), 0u);
 }
 

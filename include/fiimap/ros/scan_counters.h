@@ -8,11 +8,12 @@
 
 namespace fiimap {
 
-/// What became of all scans. received == integrated + dropped() + those that wait somewhere.
+/// What became of all scans: received == integrated + dropped() + waiting, always.
 /// Not thread-safe; copy it to hand it to another thread.
 struct ScanCounters {
   std::uint64_t received = 0;
   std::uint64_t integrated = 0;
+  std::uint64_t waiting = 0;  ///< counted where they wait, so that a lost scan shows
   std::array<std::uint64_t, kDropReasonCount> dropped_by_reason{};
   std::string last_drop;  ///< text of the newest drop; empty when there was none
 
@@ -21,8 +22,6 @@ struct ScanCounters {
     return dropped_by_reason[static_cast<std::size_t>(reason)];
   }
   std::uint64_t dropped() const;
-  /// Scans that are neither integrated nor dropped yet.
-  std::uint64_t waiting() const { return received - integrated - dropped(); }
 };
 
 }  // namespace fiimap

@@ -1,0 +1,108 @@
+// The offline tool must notice what it is there to notice.
+
+#include <gtest/gtest.h>
+
+#include "fiimap/snapshot.h"
+#include "inflation_check.h"
+#include "run_report.h"
+
+namespace fiimap {
+namespace {
+
+constexpr double kResolution = 0.1;
+
+class InflationCheckTest : public testing::Test {
+ protected:
+  InflationCheckTest() : grid_({20, 20, 20}) {
+    grid_.moveTo(VoxelIndex::Zero(), &changes_);
+    grid_.set(Plane::kOccupied, {10, 10, 10}, true);
+    grid_.set(Plane::kOccupied, {0, 10, 19}, true);  // at two faces: inflation is cut off there
+    for (const VoxelIndex& obstacle : {VoxelIndex(10, 10, 10), VoxelIndex(0, 10, 19)}) {
+      grid_.set(Plane::kInflated, obstacle, true);
+      for (int axis = 0; axis < 3; ++axis) {
+        grid_.set(Plane::kInflated, obstacle + VoxelIndex::Unit(axis), true);
+        grid_.set(Plane::kInflated, obstacle - VoxelIndex::Unit(axis), true);
+      }
+    }
+  }
+
+  std::int64_t mismatches() {
+    Snapshot::Info info;
+    info.resolution = kResolution;
+    info.inflation_radius = kResolution;
+    return countInflationMismatches(Snapshot(&grid_, info));
+  }
+
+  ChangeSet changes_;
+  SlidingGrid grid_;
+};
+
+TEST_F(InflationCheckTest, FindsNothingInAnExactMap) { EXPECT_EQ(mismatches(), 0); }
+
+TEST_F(InflationCheckTest, CountsMissingVoxels) {
+  grid_.set(Plane::kInflated, {10, 10, 11}, false);
+  grid_.set(Plane::kInflated, {1, 10, 19}, false);
+  EXPECT_EQ(mismatches(), 2);
+}
+
+TEST_F(InflationCheckTest, CountsSpuriousVoxels) {
+  grid_.set(Plane::kInflated, {10, 10, 12}, true);
+  grid_.set(Plane::kInflated, {19, 0, 0}, true);  // far from every obstacle
+  EXPECT_EQ(mismatches(), 2);
+}
+
+TEST_F(InflationCheckTest, CountsBothKindsTogether) {
+  grid_.set(Plane::kInflated, {10, 10, 11}, false);
+  grid_.set(Plane::kInflated, {10, 10, 12}, true);
+  EXPECT_EQ(mismatches(), 2);
+}
+
+TEST_F(InflationCheckTest, CountsEverythingWhereNothingIsOccupied) {
+  grid_.clear();
+  grid_.set(Plane::kInflated, {3, 4, 5}, true);
+  EXPECT_EQ(mismatches(), 1);
+}
+
+TEST(RunReportTest, HasTheDocumentedKeysAndFigures) {
+  RunReport report;
+  for (const double milliseconds : {1.0, 2.0, 3.0, 4.0}) {
+    ScanReport scan;
+    scan.times_ms.raycast = milliseconds;
+    scan.raise = 1;
+    scan.lower = 2;
+    report.add(scan);
+  }
+  report.addVerification(0);
+  report.addVerification(3);
+  ScanCounters counters;
+  counters.received = 5;
+  counters.integrated = 4;
+  counters.countDrop({DropReason::kPoseGap, "a gap"});
+  SlidingGrid grid({10, 10, 10});
+  grid.set(Plane::kOccupied, VoxelIndex::Zero(), true);
+  Snapshot::Info info;
+  info.resolution = kResolution;
+  report.finish(counters, Snapshot(&grid, info), 2000);
+
+  const nlohmann::json json = report.json();
+  EXPECT_EQ(json.at("scans"), 5);
+  EXPECT_EQ(json.at("integrated"), 4);
+  EXPECT_EQ(json.at("dropped"), nlohmann::json({{"pose_gap", 1}}));
+  EXPECT_EQ(json.at("total_ms"), nlohmann::json({{"median", 2.0}, {"p95", 4.0}, {"max", 4.0}}));
+  EXPECT_EQ(json.at("stages_ms").at("raycast").at("max"), 4.0);
+  for (const char* stage : {"project", "slide", "raycast", "fuse", "inflate", "snapshot"}) {
+    for (const char* quantile : {"median", "p95", "max"}) {
+      EXPECT_TRUE(json.at("stages_ms").at(stage).contains(quantile)) << stage << ' ' << quantile;
+    }
+  }
+  EXPECT_EQ(json.at("change_score").at("median"), 3.0);
+  EXPECT_EQ(json.at("occupied"), 1);
+  EXPECT_EQ(json.at("inflated"), 0);
+  EXPECT_EQ(json.at("memory_bytes"), 2000);
+  EXPECT_EQ(json.at("bytes_per_voxel"), 2.0);
+  EXPECT_EQ(json.at("verified"), 2);
+  EXPECT_EQ(json.at("mismatches"), 3);
+}
+
+}  // namespace
+}  // namespace fiimap
