@@ -4,7 +4,8 @@
 
 namespace fiimap {
 
-// A bit column is an array of 64-bit words; bit i of word w stands for voxel 64 w + i of a z-column.
+// A bit column is an array of 64-bit words; bit i of word w stands for voxel 64 w + i of a
+// z-column.
 
 constexpr int kWordBits = 64;
 

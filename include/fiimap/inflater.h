@@ -8,9 +8,8 @@
 
 namespace fiimap {
 
-/// Keeps the inflated plane equal to its definition (invariant 1): inflated(v) <=> some occupied u of
-/// the window has v - u in the structuring element.
-/// Not thread-safe (keeps scratch memory).
+/// Keeps the inflated plane equal to its definition (invariant 1): inflated(v) <=> some occupied u
+/// of the window has v - u in the structuring element. Not thread-safe (keeps scratch memory).
 class Inflater {
  public:
   virtual ~Inflater() = default;

@@ -6,8 +6,9 @@
 
 namespace fiimap {
 
-/// The paper's Bayes update (eq. 6-8) in 8-bit fixed point: the largest of |L_min|, |L_max|, hit and
-/// |miss| is 127 units, so that a voxel's state is one byte and saturating byte arithmetic is exact. The prior is 0.5, log-odds 0. Immutable, safe to share between threads.
+/// The paper's Bayes update (eq. 6-8) in 8-bit fixed point: the largest of |L_min|, |L_max|, hit
+/// and |miss| is 127 units, so that a voxel's state is one byte and saturating byte arithmetic is
+/// exact. The prior is 0.5, log-odds 0. Immutable, safe to share between threads.
 struct LogOdds {
   /// \param config validated probabilities p_hit, p_miss, p_min, p_max, p_occ.
   explicit LogOdds(const MapperConfig& config);

@@ -30,8 +30,8 @@ struct ScanPose {
   std::int64_t stamp_ns = 0;
 };
 
-/// Wall-clock time of each stage of one update, milliseconds. The snapshot is made on demand, so its
-/// time is filled in by who asks for it.
+/// Wall-clock time of each stage of one update, milliseconds. The snapshot is made on demand, so
+/// its time is filled in by who asks for it.
 struct StageTimes {
   double project = 0.0, slide = 0.0, raycast = 0.0, fuse = 0.0, inflate = 0.0, snapshot = 0.0;
   double total() const { return project + slide + raycast + fuse + inflate + snapshot; }

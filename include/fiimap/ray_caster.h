@@ -16,7 +16,8 @@ struct RayCount {
 /// Marks what the rays of a scan hit and what they pass through, inside a box.
 ///
 /// Definition. The scan's rays end in voxels: returns in one voxel are one ray, to its centre; so
-/// are misses. A ray that leaves the box becomes a miss in the last voxel of the box that it crosses.
+/// are misses. A ray that leaves the box becomes a miss in the last voxel of the box that it
+/// crosses.
 /// - The voxel of a return is hit.
 /// - Free is every voxel that the segment from the origin to the ray's end touches (Amanatides &
 ///   Woo 1987), where a miss's segment ends in the centre of its voxel and a return's segment

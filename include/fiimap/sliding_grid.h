@@ -20,9 +20,9 @@ constexpr int kTileShift = 5;
 constexpr int kTileSide = 1 << kTileShift;
 constexpr int kTileColumns = kTileSide * kTileSide;
 
-/// Where the bits of a voxel column are: a ring of 64-bit words, a power of two of them, in which the
-/// voxel at height z has the bit z mod (64 words), whatever the window. So nothing moves when the
-/// window slides, and addressing is a mask (2 ns; a modulo by an arbitrary height takes 18 ns).
+/// Where the bits of a voxel column are: a ring of 64-bit words, a power of two of them, in which
+/// the voxel at height z has the bit z mod (64 words), whatever the window. So nothing moves when
+/// the window slides, and addressing is a mask (2 ns; a modulo by an arbitrary height takes 18 ns).
 class ColumnLayout {
  public:
   /// \param height largest number of voxels that a column has to hold at once, >= 1.
@@ -76,8 +76,8 @@ class TileRing {
   /// \param columns window size along x and y.
   TileRing(int columns_x, int columns_y);
 
-  /// Largest number of tiles that a window touches along an axis: one that starts in the middle of a
-  /// tile touches one tile more than its size suggests.
+  /// Largest number of tiles that a window touches along an axis: one that starts in the middle of
+  /// a tile touches one tile more than its size suggests.
   static int tilesAcross(int columns) { return (columns + kTileSide - 2) / kTileSide + 1; }
 
   int slots() const { return (mask_x_ + 1) * (mask_y_ + 1); }
@@ -108,8 +108,8 @@ class SlidingGrid {
   const TileRing& ring() const { return ring_; }
 
   /// Moves the window so that its lowest corner is `min`. Voxels left behind are forgotten. Appends
-  /// to changes->forgotten and changes->entered. The inflated plane keeps its bits inside the window
-  /// and is exact again after the next Inflater::update with these changes.
+  /// to changes->forgotten and changes->entered. The inflated plane keeps its bits inside the
+  /// window and is exact again after the next Inflater::update with these changes.
   void moveTo(const VoxelIndex& min, ChangeSet* changes);
   /// Forgets everything; the window stays.
   void clear();

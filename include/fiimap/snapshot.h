@@ -24,9 +24,9 @@ struct VirtualWalls {
   double ceiling = std::numeric_limits<double>::infinity();
 };
 
-/// An immutable view of the whole map at one moment: window, cells, stamp and sequence number belong
-/// together. Reading takes no lock, from any number of threads; it stays valid as long as someone
-/// holds it, even after the mapper is gone.
+/// An immutable view of the whole map at one moment: window, cells, stamp and sequence number
+/// belong together. Reading takes no lock, from any number of threads; it stays valid as long as
+/// someone holds it, even after the mapper is gone.
 class Snapshot {
  public:
   struct Info {

@@ -6,8 +6,8 @@
 
 namespace fiimap {
 
-/// Integer coordinates of a voxel of the world: voxel v covers [v, v + 1) * resolution on each axis.
-/// Global and unbounded (negative too); it does not depend on where the window is.
+/// Integer coordinates of a voxel of the world: voxel v covers [v, v + 1) * resolution on each
+/// axis. Global and unbounded (negative too); it does not depend on where the window is.
 using VoxelIndex = Eigen::Vector3i;
 
 /// Half-open box of voxels [min, max).
@@ -51,7 +51,8 @@ class VoxelLattice {
   Eigen::Vector3d centerOf(const VoxelIndex& v) const {
     return (v.cast<double>().array() + 0.5) * resolution_;
   }
-  /// Number of voxels needed to cover an extent in metres, rounded to the nearest voxel, at least 1.
+  /// Number of voxels needed to cover an extent in metres, rounded to the nearest voxel, at
+  /// least 1.
   VoxelIndex sizeOf(const Eigen::Vector3d& extent) const;
 
   /// Box of the given size (voxels) whose middle voxel is `center`.

@@ -7,8 +7,8 @@
 
 namespace fiimap {
 
-/// The paper's Algorithms 1 and 2 (Section 4), made exact: breadth-first searches of connectivity 6,
-/// 18 or 26 around raised and lowered voxels.
+/// The paper's Algorithms 1 and 2 (Section 4), made exact: breadth-first searches of connectivity
+/// 6, 18 or 26 around raised and lowered voxels.
 ///
 /// Where the print is wrong: a raised voxel clears what lies within the structuring element E, not
 /// within 2 L; the obstacles that may have to restore something lie within E + E; and each search

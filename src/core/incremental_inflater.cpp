@@ -146,8 +146,8 @@ void IncrementalInflater::recomputeRow(int x, int y_first, int y_last, SlidingGr
   }
 }
 
-/// Dilates a column by one voxel up and down. Bits that would leave the window are taken away before
-/// the shift, because in the ring they would come back at its other end.
+/// Dilates a column by one voxel up and down. Bits that would leave the window are taken away
+/// before the shift, because in the ring they would come back at its other end.
 void IncrementalInflater::dilateAlongZ(std::uint64_t* column) const {
   constexpr int kCarry = kWordBits - 1;
   if (words_ == 1) {

@@ -10,14 +10,14 @@ namespace fiimap {
 
 /// Inflation by dirty columns of bit planes, the default.
 ///
-/// A changed obstacle can only change the inflated columns within the element's footprint around it:
-/// these are marked dirty, once however many changes share them, and each is computed anew as a
+/// A changed obstacle can only change the inflated columns within the element's footprint around
+/// it: these are marked dirty, once however many changes share them, and each is computed anew as a
 /// whole. Raised and lowered voxels are treated alike, so there is no order to keep and nothing to
 /// restore, and the cost can never exceed one recomputation of the columns near changes.
 ///
 /// An inflated column is the union of its neighbours' occupied columns, each dilated along z by the
-/// element's half height there. Sorted by half height h this is Horner's scheme: take the columns of
-/// the largest h, dilate by one, add those of h - 1, dilate by one, and so on down to h = 0.
+/// element's half height there. Sorted by half height h this is Horner's scheme: take the columns
+/// of the largest h, dilate by one, add those of h - 1, dilate by one, and so on down to h = 0.
 class IncrementalInflater : public Inflater {
  public:
   explicit IncrementalInflater(const StructuringElement& element);
@@ -46,7 +46,7 @@ class IncrementalInflater : public Inflater {
   std::vector<std::vector<Run>> runs_by_half_height_;
   std::vector<int> footprint_;  // largest |dy| of the footprint at dx = -reach..reach
 
-  std::vector<int> dirty_slots_;                // index into dirty_tiles_ by slot of the grid, or -1
+  std::vector<int> dirty_slots_;  // index into dirty_tiles_ by slot of the grid, or -1
   std::vector<DirtyTile> dirty_tiles_;
   std::vector<std::uint64_t> not_top_, not_bottom_;  // ring masks: all but the window's top, bottom
   VoxelBox gathered_;                                // columns in occupied_

@@ -39,8 +39,8 @@ class Registry {
 
 // Why this is safe (all atomics are sequentially consistent): publish() writes only a slot that is
 // not current and has no readers. A reader that enters such a slot late sees, when it looks again,
-// that the slot is not current, and leaves without touching the pointer. If it sees the slot current,
-// the write is complete, and the slot is not written again until the reader has left.
+// that the slot is not current, and leaves without touching the pointer. If it sees the slot
+// current, the write is complete, and the slot is not written again until the reader has left.
 
 std::shared_ptr<const Snapshot> MapHandle::latest() const {
   for (;;) {

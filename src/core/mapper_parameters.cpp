@@ -85,8 +85,10 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
                       "probability of occupancy after one hit (eq. 6)"),
       numberParameter("p_miss", &c->p_miss, 0.001, 0.499, "",
                       "probability of occupancy after one miss (eq. 6)"),
-      numberParameter("p_min", &c->p_min, 0.001, 0.499, "", "lower clamp of the probability (eq. 8)"),
-      numberParameter("p_max", &c->p_max, 0.501, 0.999, "", "upper clamp of the probability (eq. 8)"),
+      numberParameter("p_min", &c->p_min, 0.001, 0.499, "",
+                      "lower clamp of the probability (eq. 8)"),
+      numberParameter("p_max", &c->p_max, 0.501, 0.999, "",
+                      "upper clamp of the probability (eq. 8)"),
       numberParameter("p_occ", &c->p_occ, 0.501, 0.999, "",
                       "a voxel is occupied from this probability on"),
 
@@ -132,8 +134,7 @@ void MapperConfig::validate() const {
   const double voxels = (mapSize() / resolution).prod();
   if (voxels > kMaxWindowVoxels) {
     refuse("parameters map_size_x/y/z and resolution: the window would have " +
-           std::to_string(voxels) + " voxels, must be at most " +
-           std::to_string(kMaxWindowVoxels));
+           std::to_string(voxels) + " voxels, must be at most " + std::to_string(kMaxWindowVoxels));
   }
 }
 

@@ -39,7 +39,11 @@ std::string describeRange(const std::string& kind, double min, double max,
 Parameter numberParameter(const std::string& name, double* field, double min, double max,
                           const std::string& unit, const std::string& meaning) {
   const std::string allowed = describeRange("a number", min, max, unit);
-  return {name, unit, allowed, meaning, [field] { return toText(*field); },
+  return {name,
+          unit,
+          allowed,
+          meaning,
+          [field] { return toText(*field); },
           [=](const std::string& text) {
             double value = 0.0;
             if (!parseNumber(text, &value) || value < min || value > max) {
@@ -52,7 +56,11 @@ Parameter numberParameter(const std::string& name, double* field, double min, do
 Parameter integerParameter(const std::string& name, int* field, int min, int max,
                            const std::string& unit, const std::string& meaning) {
   const std::string allowed = describeRange("a whole number", min, max, unit);
-  return {name, unit, allowed, meaning, [field] { return std::to_string(*field); },
+  return {name,
+          unit,
+          allowed,
+          meaning,
+          [field] { return std::to_string(*field); },
           [=](const std::string& text) {
             double value = 0.0;
             if (!parseNumber(text, &value) || value != std::floor(value) || value < min ||
@@ -65,7 +73,10 @@ Parameter integerParameter(const std::string& name, int* field, int min, int max
 
 Parameter flagParameter(const std::string& name, bool* field, const std::string& meaning) {
   const std::string allowed = "true or false";
-  return {name, "", allowed, meaning,
+  return {name,
+          "",
+          allowed,
+          meaning,
           [field] { return std::string(*field ? "true" : "false"); },
           [=](const std::string& text) {
             if (text == "true" || text == "1") {
@@ -79,7 +90,11 @@ Parameter flagParameter(const std::string& name, bool* field, const std::string&
 }
 
 Parameter textParameter(const std::string& name, std::string* field, const std::string& meaning) {
-  return {name, "", "text", meaning, [field] { return *field; },
+  return {name,
+          "",
+          "text",
+          meaning,
+          [field] { return *field; },
           [field](const std::string& text) { *field = text; }};
 }
 

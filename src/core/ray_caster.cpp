@@ -40,7 +40,7 @@ Span clipToBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, const 
   return span;
 }
 
-/// Without SSE4.1, std::floor is a function call; it took a third of the cast.
+/// Without SSE4.1, std::floor is a function call, and this is called at every column of a ray.
 int floorToInt(double value) {
   const int truncated = static_cast<int>(value);
   return truncated - (value < truncated ? 1 : 0);

@@ -39,7 +39,7 @@ void updateGroup(const LogOdds& l, std::uint8_t hit, std::uint8_t free, std::uin
   const std::uint8_t observed = hit | free;
   const std::uint64_t observed_bytes = spreadBits(observed);
   // Most voxels that a scan sees are known to be free and as certainly so as can be: another miss
-  // changes nothing. Leaving early halves the time of a scan's update.
+  // changes nothing.
   const bool all_misses_of_known_voxels = hit == 0 && (observed & ~known) == 0;
   if (all_misses_of_known_voxels && ((before ^ repeat(l.min)) & observed_bytes) == 0) return;
 

@@ -60,8 +60,7 @@ PoseSource poseSourceIn(const rosbag::Bag& bag) {
 template <typename Message>
 void choosePoses(const rosbag::Bag& bag, bool frame_is_open, const std::string& what,
                  BagTopics* topics, NodeConfig* config) {
-  topics->pose_topic =
-      choose(topics->pose_topic, topicsOfType<Message>(bag), "pose_topic", what);
+  topics->pose_topic = choose(topics->pose_topic, topicsOfType<Message>(bag), "pose_topic", what);
   if (!frame_is_open) return;
   const std::string frame = frameOfFirst<Message>(bag, topics->pose_topic);
   if (!frame.empty()) config->map_frame = frame;
@@ -87,10 +86,9 @@ BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, Bag
     config->sensor = has_depth ? SensorKind::kDepth : SensorKind::kPoints;
   }
   if (config->sensor == SensorKind::kDepth) {
-    topics.depth_topic =
-        choose(topics.depth_topic, images, "depth_topic", "sensor_msgs/Image");
-    topics.camera_info_topic = choose(topics.camera_info_topic, infos, "camera_info_topic",
-                                      "sensor_msgs/CameraInfo");
+    topics.depth_topic = choose(topics.depth_topic, images, "depth_topic", "sensor_msgs/Image");
+    topics.camera_info_topic =
+        choose(topics.camera_info_topic, infos, "camera_info_topic", "sensor_msgs/CameraInfo");
   } else {
     topics.points_topic = choose(topics.points_topic, topicsOfType<sensor_msgs::PointCloud2>(bag),
                                  "points_topic", "sensor_msgs/PointCloud2");

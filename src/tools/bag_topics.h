@@ -24,8 +24,8 @@ struct BagTopics {
 /// `settings` does not name them, config->sensor (a depth image with intrinsics before a cloud),
 /// config->pose_source (odometry, then pose, then transform, then TF) and config->map_frame (the
 /// frame of the first pose).
-/// \throws std::invalid_argument when there is no input, or more than one candidate for it; the text
-/// lists them.
+/// \throws std::invalid_argument when there is no input, or more than one candidate for it; the
+/// text lists them.
 BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, BagTopics topics,
                        NodeConfig* config);
 

@@ -13,7 +13,8 @@ namespace po = boost::program_options;
 
 constexpr char kUsage[] =
     "Offline evaluation of fiimap on recorded data\n\n"
-    "  fiimap_eval run BAG [options]   builds the map of a bag as the nodelet would, and prints what "
+    "  fiimap_eval run BAG [options]   builds the map of a bag as the nodelet would, and prints "
+    "what "
     "it cost\n"
     "  fiimap_eval parameters          lists every parameter: name, default, unit, allowed values, "
     "meaning\n\n";
@@ -25,8 +26,9 @@ struct CommandLine {
 
 po::options_description describeOptions(fiimap::RunOptions* run) {
   po::options_description options("Options of run");
-  options.add_options()("help,h", "this text")(
-      "config", po::value(&run->config)->value_name("FILE"), "parameters (YAML, as for the nodelet)")(
+  options.add_options()("help,h", "this text")("config",
+                                               po::value(&run->config)->value_name("FILE"),
+                                               "parameters (YAML, as for the nodelet)")(
       "set", po::value(&run->settings)->value_name("NAME=VALUE")->composing(),
       "a parameter, after those of the file; may be repeated")(
       "json", po::value(&run->json)->value_name("FILE"), "write the figures to this file")(

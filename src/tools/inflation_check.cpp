@@ -66,8 +66,7 @@ VoxelBox boundsOf(const std::vector<VoxelIndex>& voxels, int margin) {
 }  // namespace
 
 std::int64_t countInflationMismatches(const Snapshot& snapshot) {
-  const std::vector<VoxelIndex> obstacles =
-      snapshot.voxels(Plane::kOccupied, snapshot.window());
+  const std::vector<VoxelIndex> obstacles = snapshot.voxels(Plane::kOccupied, snapshot.window());
   const std::vector<VoxelIndex> offsets = elementByDefinition(snapshot.info());
   const int reach = offsets.back().x();
   VoxelFlags expected(boundsOf(obstacles, reach).intersection(snapshot.window()));

@@ -77,8 +77,8 @@ nlohmann::json RunReport::json() const {
     out["stages_ms"][name] =
         quantiles(scans_, [stage = stage](const ScanReport& s) { return s.times_ms.*stage; });
   }
-  out["change_score"] = quantiles(
-      scans_, [](const ScanReport& s) { return static_cast<double>(s.changeScore()); });
+  out["change_score"] =
+      quantiles(scans_, [](const ScanReport& s) { return static_cast<double>(s.changeScore()); });
   out["occupied"] = occupied_;
   out["inflated"] = inflated_;
   out["memory_bytes"] = memory_bytes_;
@@ -108,8 +108,8 @@ std::string RunReport::text() const {
   text += "occupied " + std::to_string(occupied_) + ", inflated " + std::to_string(inflated_) +
           " voxels; memory " + memory + "\n";
   if (verified_ > 0) {
-    text += "compared with brute force at " + std::to_string(verified_) + " scans: " +
-            std::to_string(mismatches_) + " voxels differ\n";
+    text += "compared with brute force at " + std::to_string(verified_) +
+            " scans: " + std::to_string(mismatches_) + " voxels differ\n";
   }
   return text;
 }

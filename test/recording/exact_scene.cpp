@@ -29,8 +29,8 @@ ExactScene::Shape shapeFrom(const Json& json) {
     shape.half_size = {radius, radius, json.at("length").get<double>() / 2.0};
     if (json.contains("axis")) {
       const Eigen::Vector3d axis = vectorFrom(json.at("axis")).normalized();
-      shape.R_W_S = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis)
-                        .toRotationMatrix();
+      shape.R_W_S =
+          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
     }
   } else if (type == "sphere") {
     shape.kind = ExactScene::Shape::Kind::kSphere;

@@ -21,13 +21,13 @@ namespace {
 const std::string kBag = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_excerpt.bag";
 const std::string kScene = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_scene.json";
 
-constexpr double kSurfaceCell = 0.05;     // m
-constexpr double kOnSurface = 0.02;       // m: a reading this near shows that surface for sure
-constexpr double kPassingReach = 6.0;     // m: a shape that moves stays this near where it began
-constexpr double kPassingMargin = 0.5;    // m around what comes, goes or moves
-constexpr int kSeenOften = 5;             // images
-constexpr int kReadingStep = 4;           // pixels
-constexpr double kNanosecond = 1e-9;      // s
+constexpr double kSurfaceCell = 0.05;   // m
+constexpr double kOnSurface = 0.02;     // m: a reading this near shows that surface for sure
+constexpr double kPassingReach = 6.0;   // m: a shape that moves stays this near where it began
+constexpr double kPassingMargin = 0.5;  // m around what comes, goes or moves
+constexpr int kSeenOften = 5;           // images
+constexpr int kReadingStep = 4;         // pixels
+constexpr double kNanosecond = 1e-9;    // s
 
 using CellKey = std::array<int, 3>;
 
@@ -83,7 +83,8 @@ class SceneListener : public ScanListener {
     }
   }
 
-  /// Depth reading (m) in the direction of a point before the camera; 0 outside the image or where it is invalid.
+  /// Depth reading (m) in the direction of a point before the camera; 0 outside the image or where
+  /// it is invalid.
   double depthAt(const DepthImage& image, const PinholeIntrinsics& k,
                  const Eigen::Vector3d& point_C) const {
     const double u = std::round(k.fx * point_C.x() / point_C.z() + k.cx);
@@ -161,8 +162,7 @@ TEST_P(ExactSceneTest, FindsSurfacesThatWereSeenOften) {
   std::size_t often = 0, found = 0;
   for (const auto& [key, images] : listener_->seen()) {
     if (images < kSeenOften) continue;
-    const Eigen::Vector3d point_W =
-        listener_->cells().centerOf(VoxelIndex(key[0], key[1], key[2]));
+    const Eigen::Vector3d point_W = listener_->cells().centerOf(VoxelIndex(key[0], key[1], key[2]));
     if (nearPassing(point_W)) continue;
     ++often;
     if (occupiedNear(*map_, point_W)) ++found;
@@ -190,7 +190,8 @@ TEST_P(ExactSceneTest, PutsObstaclesOnSurfaces) {
             << 100.0 * share << " % are farther than a voxel from any surface, "
             << 100.0 * half / obstacles << " % farther than half a diagonal\n";
   ASSERT_GT(obstacles, 1000u);
-  // Readings are quantised to 0.2 m at the far end of their range: new walls stand a voxel too near.
+  // Readings are quantised to 0.2 m at the far end of their range: new walls stand a voxel too
+  // near.
   EXPECT_LE(share, GetParam() > 0.15 ? 0.06 : 0.03);
 }
 
@@ -203,8 +204,9 @@ TEST_P(ExactSceneTest, ClearsWhatMovedAway) {
       ++left;
     }
   }
-  std::cout << "resolution " << GetParam() << " m: where obstacles had been and images looked through, "
-            << cleared << " voxels are cleared; " << left << " are left after more than "
+  std::cout << "resolution " << GetParam()
+            << " m: where obstacles had been and images looked through, " << cleared
+            << " voxels are cleared; " << left << " are left after more than "
             << listener_->missesToClear() << " such images\n";
   ASSERT_GT(cleared, 0u);
   EXPECT_EQ(left, 0u);

@@ -7,10 +7,13 @@
 namespace fiimap {
 
 /// Writes <name>_occupied.pcd, <name>_inflated.pcd (voxel centres, m, binary) and <name>.bt
-/// (OctoMap of the raw layer, occupied and free). Each file is complete or as it was before. \param
-/// directory must exist; \param name letters, digits, '_', '-' and '.'. \return what was written,
-/// in words. \throws std::runtime_error that says what is wrong with directory or name, or which
-/// file could not be written.
+/// (OctoMap of the raw layer, occupied and free). Each file is complete or as it was before.
+///
+/// \param directory must exist.
+/// \param name letters, digits, '_', '-' and '.'.
+/// \return what was written, in words.
+/// \throws std::runtime_error that says what is wrong with directory or name, or which file could
+/// not be written.
 std::string saveMap(const Snapshot& snapshot, const std::string& directory,
                     const std::string& name);
 
