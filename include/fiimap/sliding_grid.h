@@ -22,7 +22,7 @@ constexpr int kTileColumns = kTileSide * kTileSide;
 
 /// Where the bits of a voxel column are: a ring of 64-bit words, a power of two of them, in which
 /// the voxel at height z has the bit z mod (64 words), whatever the window. So nothing moves when
-/// the window slides, and addressing is a mask (2 ns; a modulo by an arbitrary height takes 18 ns).
+/// the window slides, and addressing is a mask instead of a slow modulo.
 class ColumnLayout {
  public:
   /// \param height largest number of voxels that a column has to hold at once, >= 1.
@@ -94,7 +94,7 @@ class TileRing {
 /// The sliding occupancy grid (Section 3.1): three bit planes and the log-odds of every voxel of a
 /// window that follows the vehicle. Voxels keep their place in memory when the window slides; what
 /// leaves is forgotten, what enters is unknown. Memory is taken tile by tile where something has
-/// been seen, and reused.
+/// been seen; that of the log-odds is kept for reuse.
 ///
 /// Invariant: bits of voxels outside the window are zero in every plane.
 /// Not thread-safe: one thread owns the grid; other threads read snapshots.
