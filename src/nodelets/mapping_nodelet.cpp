@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
-constexpr double kDiagnosticsPeriod = 1.0;      // s
+constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
 constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one reason
 constexpr double kMegabyte = 1e6;
@@ -86,8 +86,9 @@ void MappingNodelet::logStart(const Mapper& mapper) {
 
 void MappingNodelet::advertise() {
   ros::NodeHandle& node = getPrivateNodeHandle();
-  statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue);
-  handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue);
+  const bool latch = true;
+  statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue, latch);
+  handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue, latch);
   clouds_ =
       std::make_unique<CloudPublisher>(node, node_config_.map_frame, node_config_.publish_rate);
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,

@@ -63,7 +63,7 @@ class BadInputTest(MapTest):
         """Flies until scans are integrated, again."""
         goal = self.listener.newest().integrated + ENOUGH
         self.fly_until(lambda: self.listener.newest().integrated >= goal,
-                       f'integrated scans: {self.listener.dropped()}')
+                       lambda: f'integrated scans: {self.listener.state()}')
 
     def input_status(self):
         return self.listener.diagnostics.get('inputs', DiagnosticStatus())
@@ -77,7 +77,8 @@ class BadInputTest(MapTest):
             status = self.input_status()
             return (self.listener.input_count(key) >= goal and status.level != status.OK
                     and all(word in status.message for word in words))
-        self.fly_until(is_told, f'{reason} in diagnostics, with {words}', **changes)
+        self.fly_until(is_told, lambda: f'{reason} in diagnostics, with {words}: '
+                                        f'{self.input_status()}', **changes)
 
     def check(self, reason, words, **changes):
         self.start_vehicle()
