@@ -135,6 +135,7 @@ void MappingThread::integrateNext() {
   handle_->publish(update.snapshot);
 
   update.pose = scan.pose;
+  update.T_W_B = scan.T_W_B;
   update.pose_gap = scan.pose_gap;
   update.decode_ms = decoder_.decodeTimeMs();
   update.memory_bytes = mapper_.memoryBytes();

@@ -126,7 +126,8 @@ void ScanSynchronizer::emitFront(const Attempt& result) {
   scan.message = front.message;
   scan.intrinsics = result.intrinsics;
   scan.pose.T_W_S = result.pose.T_W_S;
-  scan.pose.vehicle_W = result.pose.vehicle_W;
+  scan.pose.vehicle_W = result.pose.T_W_B.translation();
+  scan.T_W_B = result.pose.T_W_B;
   scan.pose.stamp_ns = static_cast<std::int64_t>(front.stamp.toNSec());
   scan.pose_gap = result.pose.gap;
   listener_->onScan(scan);

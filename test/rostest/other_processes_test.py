@@ -6,6 +6,7 @@ import rosbag
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
 from visualization_msgs.msg import Marker
 
@@ -16,7 +17,8 @@ from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, program, wait_for
 
 TOPICS = {
     '/map/occupied': PointCloud2, '/map/inflated': PointCloud2, '/map/statistics': Statistics,
-    '/map/map_handle': MapInfo, '/map/window': Marker, '/diagnostics': DiagnosticArray,
+    '/map/map_handle': MapInfo, '/map/window': Marker, '/map/path': Path,
+    '/map/vehicle': Marker, '/diagnostics': DiagnosticArray,
 }
 SCANS = 20
 PARAMETERS = {**PATIENT_QUEUES, 'resolution': 0.1}
@@ -86,7 +88,7 @@ class OtherProcessesTest(ManagerTest):
         self.assertEqual(messages['/map/statistics'], [newest])
         self.assertEqual([info.sequence for info in messages['/map/map_handle']],
                          [newest.sequence])
-        for topic in ('/map/occupied', '/map/inflated', '/map/window'):
+        for topic in ('/map/occupied', '/map/inflated', '/map/window', '/map/path', '/map/vehicle'):
             for message in messages[topic]:
                 self.assertEqual(message.header.stamp, newest.header.stamp, topic)
 

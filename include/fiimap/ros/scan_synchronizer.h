@@ -31,6 +31,7 @@ struct SynchronizedScan {
   ScanMessage message;
   PinholeIntrinsics intrinsics;  ///< of images only
   ScanPose pose;
+  Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< vehicle's body to world
   double pose_gap = 0.0;  ///< s between the poses around the scan
 };
 
