@@ -19,7 +19,7 @@ struct DecodedDepthImage {
 };
 
 /// View of a message of encoding 16UC1, mono16 (depth_scale) or 32FC1 (metres), without a copy when
-/// its byte order is the machine's.
+/// its byte order is the machine's and its rows are a whole number of pixels apart.
 /// \throws InputError (kBadEncoding, kBadImage).
 DecodedDepthImage decodeDepthImage(const sensor_msgs::ImageConstPtr& message);
 
