@@ -9,11 +9,13 @@
 namespace fiimap {
 namespace {
 
+namespace enc = sensor_msgs::image_encodings;
+
 DepthImage::Format formatOf(const std::string& encoding) {
-  namespace enc = sensor_msgs::image_encodings;
-  if (encoding == enc::TYPE_16UC1 || encoding == enc::MONO16) return DepthImage::Format::kUint16;
-  if (encoding == enc::TYPE_32FC1) return DepthImage::Format::kFloat32;
-  throw InputError(DropReason::kBadEncoding, "the image's encoding is '" + encoding + "'");
+  if (!isDepthEncoding(encoding)) {
+    throw InputError(DropReason::kBadEncoding, "the image's encoding is '" + encoding + "'");
+  }
+  return encoding == enc::TYPE_32FC1 ? DepthImage::Format::kFloat32 : DepthImage::Format::kUint16;
 }
 
 std::size_t pixelBytes(DepthImage::Format format) {
@@ -55,6 +57,10 @@ sensor_msgs::ImageConstPtr withoutPadding(const sensor_msgs::Image& image, std::
 }
 
 }  // namespace
+
+bool isDepthEncoding(const std::string& encoding) {
+  return encoding == enc::TYPE_16UC1 || encoding == enc::MONO16 || encoding == enc::TYPE_32FC1;
+}
 
 DecodedDepthImage decodeDepthImage(const sensor_msgs::ImageConstPtr& message) {
   const DepthImage::Format format = formatOf(message->encoding);

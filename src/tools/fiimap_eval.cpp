@@ -16,8 +16,10 @@ constexpr char kUsage[] =
     "  fiimap_eval run BAG [options]   builds the map of a bag as the nodelet would, and prints "
     "what "
     "it cost\n"
-    "  fiimap_eval parameters          lists every parameter: name, default, unit, allowed values, "
-    "meaning\n\n";
+    "  fiimap_eval parameters          lists the parameters of map and node: name, default, unit, "
+    "allowed values, meaning\n\n"
+    "Topics that are not found by type are set like parameters: depth_topic, camera_info_topic, "
+    "points_topic, pose_topic.\n\n";
 
 struct CommandLine {
   std::string command;
