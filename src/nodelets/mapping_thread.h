@@ -22,7 +22,7 @@ namespace fiimap {
 struct MapUpdate {
   ScanPose pose;
   Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< vehicle's body to world
-  double pose_gap = 0.0;  ///< s between the poses around the scan
+  double pose_gap = 0.0;                                    ///< s between the poses around the scan
   ScanReport report;
   double decode_ms = 0.0;
   std::shared_ptr<const Snapshot> snapshot;

@@ -86,9 +86,13 @@ void PoseResolver::add(const geometry_msgs::TransformStamped& transform) {
     history_.add(transform);
     refused_.reset();
   } catch (const InputError& error) {
-    refused_ = error.drop();
-    ++refused_poses_;
+    refuse(error.drop());
   }
+}
+
+void PoseResolver::refuse(const Drop& why) {
+  refused_ = why;
+  ++refused_poses_;
 }
 
 void PoseResolver::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {

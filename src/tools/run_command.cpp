@@ -16,6 +16,7 @@
 #include "fiimap/ros/node_config.h"
 #include "fiimap/ros/parameter_sources.h"
 #include "fiimap/ros/scan_decoder.h"
+#include "fiimap/ros/steady_time.h"
 #include "inflation_check.h"
 #include "progress_bar.h"
 #include "run_report.h"
@@ -48,7 +49,7 @@ Settings readSettings(const RunOptions& options) {
       configure(map_settings, &settings.mapper, &settings.node);
   if (!unknown.empty()) {
     throw std::invalid_argument("unknown parameter " + unknown.front() +
-                                ": fiimap_eval parameters lists all");
+                                ": see fiimap_eval parameters and fiimap_eval --help");
   }
   return settings;
 }
@@ -96,11 +97,9 @@ class MapBuilder : public ScanListener {
  private:
   void addScan(const SynchronizedScan& scan) {
     ScanReport report = decoder_.integrate(scan, &mapper_);
-    const auto start = std::chrono::steady_clock::now();
+    const SteadyTime start = std::chrono::steady_clock::now();
     snapshot_ = mapper_.snapshot();
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    report.times_ms.snapshot = elapsed.count();
+    report.times_ms.snapshot = millisecondsSince(start);
     report_.add(report);
     ++counters_.integrated;
     last_is_verified_ = false;

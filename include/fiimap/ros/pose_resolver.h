@@ -45,6 +45,8 @@ class PoseResolver {
   void add(const geometry_msgs::PoseStamped& pose);
   void add(const geometry_msgs::TransformStamped& transform);
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
+  /// Counts a pose message that is not to be used.
+  void refuse(const Drop& why);
   /// Forgets poses and moving transforms.
   void clear();
 
