@@ -46,7 +46,7 @@ class StreetTest(MapTest):
         listener = self.listen('fiimap')
         # With names of topics, playing waits for their subscribers.
         launch = self.start('roslaunch', 'fiimap', 'lidar.launch', f'bag:={self.cut()}',
-                            f'bag_topics:={self.SCAN_TOPIC} /odom')
+                            f'bag_topics:={self.SCAN_TOPIC} /odom /tf_static')
         self.assertGreater(listener.wait_for_received(SCANS).occupied, 1000)
         self.assertEqual(set(listener.dropped()) - {'overload'}, set(), launch.output())
         self.assertEqual(launch.interrupt(), 0, launch.output())
