@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+"""Prints tables of what fiimap_compare measured, and draws plots.
+
+  benchmark/report.py SAMPLES.json [--plots DIRECTORY] [--json FILE]
+
+Ratios are between medians of series that took turns in one process, and, where it says so, the
+least of the ratios frame by frame.
+"""
+import argparse
+import json
+import math
+import pathlib
+import statistics
+
+MILLISECONDS = 1e-3  # per microsecond
+SCORE_BINS = [0, 1, 10, 25, 50, 100, 200, 400, 800, 1600, 3200, math.inf]
+
+
+class Series:
+    """Values of one method in one situation, frame by frame."""
+
+    def __init__(self, entry):
+        self.experiment = entry['experiment']
+        self.recording = entry['recording']
+        self.method = entry['method']
+        self.setting = entry['setting']
+        self.values = entry['values']
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+    @property
+    def p95(self):
+        return sorted(self.values)[max(0, math.ceil(0.95 * len(self.values)) - 1)]
+
+    @property
+    def max(self):
+        return max(self.values)
+
+
+class Samples:
+    """All series of one run."""
+
+    def __init__(self, entries):
+        self.series = [Series(e) for e in entries]
+
+    def of(self, experiment):
+        return [s for s in self.series if s.experiment == experiment]
+
+    def groups(self, experiment, *keys):
+        """Series of an experiment by recording and these settings, in the order measured."""
+        groups = {}
+        for s in self.of(experiment):
+            group = (s.recording, *(s.setting[k] for k in keys))
+            groups.setdefault(group, {})[s.method] = s
+        return groups
+
+
+def table(title, header, rows):
+    """Markdown, so that it can go into docs/performance.md as it is."""
+    if not rows:
+        return
+    rows = [[str(cell) for cell in row] for row in rows]
+    widths = [max(len(line[i]) for line in [header] + rows) for i in range(len(header))]
+    print(f'\n### {title}\n')
+    for line in [header, ['-' * w for w in widths]] + rows:
+        print('| ' + ' | '.join(cell.ljust(w) for cell, w in zip(line, widths)) + ' |')
+
+
+def in_ms(series):
+    return [f'{value * MILLISECONDS:.3f}' for value in (series.median, series.p95, series.max)]
+
+
+def in_us(value):
+    return f'{value:.1f}'
+
+
+def frame_ratios(slow, fast):
+    """Pairs of one frame; a time below the clock's resolution counts as the shortest measured."""
+    floor = min(v for v in fast.values if v > 0)
+    return [a / max(b, floor) for a, b in zip(slow.values, fast.values)]
+
+
+def report_pipeline(samples, summary):
+    rows = []
+    for (recording, resolution), methods in samples.groups('pipeline', 'resolution').items():
+        ours = methods['fiimap']
+        for name, s in methods.items():
+            ratio = s.median / ours.median
+            rows.append([recording, resolution, name, *in_ms(s), f'{s.p95 / s.median:.2f}',
+                         f'{ratio:.1f}x', f'{min(frame_ratios(s, ours)):.1f}x'])
+            summary[f'pipeline {recording} {resolution} {name}'] = {
+                'median_us': s.median, 'p95_us': s.p95, 'max_us': s.max, 'ratio': ratio}
+    table('Whole pipeline, from the depth image to the inflated map, ms per frame',
+          ['recording', 'm', 'method', 'median', 'p95', 'max', 'p95 / median',
+           'median / fiimap', 'least per frame'], rows)
+
+
+def report_inflation(samples, summary):
+    rows = []
+    for (recording, reach, shape), methods in samples.groups('inflation', 'reach', 'shape').items():
+        ours, batch = methods['incremental'], methods['byte_batch']
+        ratio, least = batch.median / ours.median, min(frame_ratios(batch, ours))
+        bfs = in_us(methods['bfs'].median) if 'bfs' in methods else ''
+        rows.append([recording, reach, shape, in_us(ours.median), in_us(ours.p95), in_us(ours.max),
+                     bfs, in_us(batch.median), in_us(batch.p95), f'{ratio:.0f}x', f'{least:.1f}x'])
+        summary[f'inflation {recording} {reach} {shape}'] = {
+            'median_us': ours.median, 'p95_us': ours.p95, 'max_us': ours.max,
+            'batch_median_us': batch.median, 'ratio': ratio, 'least_ratio': least}
+    table('Inflation alone at 0.1 m, us per frame',
+          ['recording', 'L', 'shape', 'incremental median', 'p95', 'max', 'bfs median',
+           'byte batch median', 'p95', 'batch / incremental', 'least per frame'], rows)
+
+
+def score_bins(samples, reach):
+    """Times by change score over all recordings: [(bin, frames, {method: median us})]."""
+    scores = {s.recording: s.values for s in samples.of('change_score')}
+    bins = []
+    for low, high in zip(SCORE_BINS, SCORE_BINS[1:]):
+        times = {}
+        for s in samples.of('inflation'):
+            if s.setting['reach'] != reach or s.setting['shape'] != 'ball':
+                continue
+            chosen = [t for t, score in zip(s.values, scores[s.recording]) if low <= score < high]
+            times.setdefault(s.method, []).extend(chosen)
+        frames = len(next(iter(times.values()), []))
+        if frames:
+            bins.append(((low, high), frames, {m: statistics.median(t) for m, t in times.items()}))
+    return bins
+
+
+def report_scores(samples, _summary):
+    for reach in (2, 4, 10):
+        rows = []
+        for (low, high), frames, times in score_bins(samples, reach):
+            name = f'{low} - {high - 1}' if math.isfinite(high) else f'>= {low}'
+            bfs = in_us(times['bfs']) if 'bfs' in times else ''
+            rows.append([name, frames, in_us(times['incremental']), bfs,
+                         in_us(times['byte_batch'])])
+        table(f'Inflation by change score at 0.1 m, ball, L = {reach}, median us over all recordings',
+              ['change score', 'frames', 'incremental', 'bfs', 'byte batch'], rows)
+
+
+def report_growth(samples, summary):
+    for key, unit in (('resolution', 'm'), ('window', 'm'), ('range', 'm'), ('reach', 'voxels')):
+        rows = []
+        for s in samples.of(f'growth_{key}'):
+            setting = s.setting[key]
+            name = ' x '.join(f'{v:g}' for v in setting) if isinstance(setting, list) else setting
+            rows.append([s.recording, name, *in_ms(s)])
+            summary[f'growth_{key} {s.recording} {name}'] = {'median_us': s.median}
+        table(f'Whole pipeline by {key}, ms per frame',
+              ['recording', f'{key} ({unit})', 'median', 'p95', 'max'], rows)
+
+
+def report_worst(samples, summary):
+    rows = []
+    for s in samples.of('worst'):
+        rows.append([s.recording, s.setting['resolution'], s.setting['event'],
+                     f'{s.median * MILLISECONDS:.3f}', f'{s.max * MILLISECONDS:.3f}'])
+        summary[f'worst {s.recording} {s.setting["resolution"]} {s.setting["event"]}'] = {
+            'median_us': s.median, 'max_us': s.max}
+    table('Frames in which something happens, 100 x 100 x 6 m, ms',
+          ['recording', 'm', 'event', 'median', 'max'], rows)
+
+
+def report_reading(samples, summary):
+    rows = []
+    for (recording, resolution), methods in samples.groups('snapshot', 'resolution').items():
+        snapshot = methods['fiimap']
+        query = samples.groups('query', 'resolution')[recording, resolution]['fiimap']
+        held, worst = samples.groups('memory_bytes', 'resolution')[recording, resolution][
+            'fiimap'].values
+        rows.append([recording, resolution, in_us(snapshot.median), in_us(snapshot.p95),
+                     f'{1000 * query.median:.1f}', f'{held / 1e6:.1f}', f'{worst / 1e6:.1f}'])
+        summary[f'reading {recording} {resolution}'] = {
+            'snapshot_us': snapshot.median, 'query_us': query.median, 'memory_bytes': held}
+    table('Reading',
+          ['recording', 'm', 'snapshot median us', 'p95', 'query ns', 'memory MB',
+           'memory MB when all was seen'], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument('samples', type=pathlib.Path)
+    parser.add_argument('--plots', type=pathlib.Path)
+    parser.add_argument('--json', type=pathlib.Path, help='where to write the figures')
+    arguments = parser.parse_args()
+    samples = Samples(json.loads(arguments.samples.read_text()))
+    summary = {}
+    for report in (report_pipeline, report_inflation, report_scores, report_growth, report_worst,
+                   report_reading):
+        report(samples, summary)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(summary, indent=2) + '\n')
+    if arguments.plots:
+        import plots  # needs matplotlib
+        plots.draw(samples, score_bins, arguments.plots)
+
+
+if __name__ == '__main__':
+    main()
