@@ -108,7 +108,8 @@ bool checkAgreement(const Recording& recording) {
                                "incremental cube");
   agree &= inflationAgrees(recording, steps, ElementShape::kBall, InflationMethod::kIncremental,
                            "incremental ball");
-  agree &= inflationAgrees(recording, steps, ElementShape::kCube, InflationMethod::kBfs, "bfs cube");
+  agree &=
+      inflationAgrees(recording, steps, ElementShape::kCube, InflationMethod::kBfs, "bfs cube");
   agree &= occupancyAgrees(recording);
   std::printf("%s: methods %s\n", recording.name.c_str(), agree ? "agree" : "DISAGREE");
   return agree;

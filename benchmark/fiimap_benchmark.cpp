@@ -5,7 +5,9 @@
 #include <benchmark/benchmark.h>
 
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,17 +21,19 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr int kReach = 2;                         // voxels
+constexpr int kReach = 2;                            // voxels
 constexpr double kResolutions[] = {0.2, 0.1, 0.05};  // m
-constexpr double kInflationResolution = 0.1;      // m
-constexpr int kMaxReach = 10;                     // voxels
-constexpr double kSecond = 1e6;                   // us
+constexpr double kInflationResolution = 0.1;         // m
+constexpr int kMaxReach = 10;                        // voxels
+/// A frame of the searches takes seconds beyond.
+constexpr int kMaxBfsReach = 4;  // voxels
+constexpr std::size_t kDefaultFrames = 100;
+constexpr double kSecond = 1e6;  // us
 
 const std::vector<std::pair<Stage, std::string>>& stages() {
   static const std::vector<std::pair<Stage, std::string>> list = {
-      {Stage::kProject, "project"}, {Stage::kSlide, "slide"},
-      {Stage::kCast, "cast"},       {Stage::kFuse, "fuse"},
-      {Stage::kInflate, "inflate"}, {Stage::kSnapshot, "snapshot"},
+      {Stage::kProject, "project"}, {Stage::kSlide, "slide"},     {Stage::kCast, "cast"},
+      {Stage::kFuse, "fuse"},       {Stage::kInflate, "inflate"}, {Stage::kSnapshot, "snapshot"},
   };
   return list;
 }
@@ -94,10 +98,101 @@ void runQuery(benchmark::State& state, const Recording& recording, double resolu
     angle += kTurn;
     radius = radius > kMaxRadius ? 0.0 : radius + kGrowth;
     const Eigen::Vector3d offset(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-    benchmark::DoNotOptimize(
-        snapshot->inflation(recording.frames.back().pose.vehicle_W + offset));
+    const Eigen::Vector3d point_W = recording.frames.back().pose.vehicle_W + offset;
+    benchmark::DoNotOptimize(snapshot->inflation(point_W));
   }
+}
+
+std::string nameOf(const std::string& what, const Recording& recording, double resolution) {
+  std::ostringstream name;
+  name << what << '/' << recording.name << '/' << resolution << 'm';
+  return name.str();
+}
+
+template <typename... Arguments>
+void add(const std::string& name, Arguments&&... arguments) {
+  benchmark::RegisterBenchmark(name.c_str(), std::forward<Arguments>(arguments)...)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+void addPipelines(const Recording& recording) {
+  for (const double resolution : kResolutions) {
+    for (const auto& [stage, stage_name] : stages()) {
+      add(nameOf(stage_name, recording, resolution), runStage, std::cref(recording), resolution,
+          stage);
+    }
+    for (const char* method : {kFiimap, kEgoStyle, kPerPixel, kOctomap}) {
+      add(nameOf(std::string("pipeline/") + method, recording, resolution), runPipeline,
+          std::cref(recording), resolution, std::string(method));
+    }
+    benchmark::RegisterBenchmark(nameOf("query", recording, resolution).c_str(), runQuery,
+                                 std::cref(recording), resolution);
+  }
+}
+
+void addInflation(const Recording& recording, const std::vector<InflationStep>& steps) {
+  const std::string end = "/" + recording.name + "/L";
+  for (int reach = 1; reach <= kMaxReach; ++reach) {
+    add("inflation/incremental" + end + std::to_string(reach), runInflation, std::cref(recording),
+        std::cref(steps), InflationMethod::kIncremental, reach);
+    add("inflation/byte_batch" + end + std::to_string(reach), runByteBatch, std::cref(recording),
+        std::cref(steps), reach);
+    if (reach > kMaxBfsReach) continue;
+    add("inflation/bfs" + end + std::to_string(reach), runInflation, std::cref(recording),
+        std::cref(steps), InflationMethod::kBfs, reach);
+  }
+}
+
+/// Takes our own options out of the arguments, leaving Google Benchmark's.
+std::vector<Recording> loadRecordings(int* argc, char** argv) {
+  namespace po = boost::program_options;
+  po::options_description description;
+  auto add_option = description.add_options();
+  add_option("bag", po::value<std::vector<std::string>>()->required(), "NAME=FILE");
+  add_option("frames", po::value<std::size_t>()->default_value(kDefaultFrames), "");
+  const po::parsed_options parsed =
+      po::command_line_parser(*argc, argv).options(description).allow_unregistered().run();
+  po::variables_map values;
+  po::store(parsed, values);
+  po::notify(values);
+
+  static std::vector<std::string> others;
+  others = po::collect_unrecognized(parsed.options, po::include_positional);
+  *argc = 1;
+  for (std::string& other : others) argv[(*argc)++] = other.data();
+
+  std::vector<Recording> recordings;
+  for (const std::string& bag : values["bag"].as<std::vector<std::string>>()) {
+    recordings.push_back(loadRecording(bag, values["frames"].as<std::size_t>()));
+  }
+  return recordings;
+}
+
+int run(int argc, char** argv) {
+  const std::vector<Recording> recordings = loadRecordings(&argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  std::vector<std::vector<InflationStep>> steps;
+  for (const Recording& recording : recordings) {
+    steps.push_back(recordInflationSteps(recording.frames, configAt(kInflationResolution, 1)));
+  }
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    addPipelines(recordings[i]);
+    addInflation(recordings[i], steps[i]);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }
 
 }  // namespace
 }  // namespace fiimap::bench
+
+int main(int argc, char** argv) {
+  try {
+    return fiimap::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "fiimap_benchmark: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -2,8 +2,8 @@
 // times of every frame as JSON for benchmark/report.py.
 
 #include <boost/program_options.hpp>
-#include <functional>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -25,10 +25,8 @@ using Experiment = std::function<void(const Recording&, Samples*)>;
 
 const std::vector<std::pair<std::string, Experiment>>& experiments() {
   static const std::vector<std::pair<std::string, Experiment>> list = {
-      {"pipeline", fiimap::bench::measurePipelines},
-      {"inflation", fiimap::bench::measureInflation},
-      {"growth", fiimap::bench::measureGrowth},
-      {"worst", fiimap::bench::measureWorstCases},
+      {"pipeline", fiimap::bench::measurePipelines}, {"inflation", fiimap::bench::measureInflation},
+      {"growth", fiimap::bench::measureGrowth},      {"worst", fiimap::bench::measureWorstCases},
       {"reading", fiimap::bench::measureReading},
   };
   return list;
@@ -47,6 +45,8 @@ struct Options {
   std::size_t frames = 600;
   std::string json;
   bool check = false;
+  std::string run;
+  double resolution = 0.1;  // m
 };
 
 bool parse(int argc, char** argv, Options* options) {
@@ -61,6 +61,11 @@ bool parse(int argc, char** argv, Options* options) {
   add("json", po::value(&options->json), "where to write the times");
   add("check", po::bool_switch(&options->check),
       "measure nothing; fail when the methods make different maps");
+  add("run", po::value(&options->run),
+      "measure nothing; run one method's pipeline: fiimap, ego, ego_invalid_far, per_pixel, "
+      "octomap");
+  add("resolution", po::value(&options->resolution)->default_value(options->resolution),
+      "of --run, metres");
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, description), values);
   if (values.count("help") > 0) {
@@ -88,6 +93,8 @@ int run(const Options& options) {
     const Recording recording = fiimap::bench::loadRecording(bag, options.frames);
     if (options.check) {
       agree &= fiimap::bench::checkAgreement(recording);
+    } else if (!options.run.empty()) {
+      fiimap::bench::runPipelineOnce(recording, options.run, options.resolution);
     } else {
       measure(recording, options, &samples);
     }

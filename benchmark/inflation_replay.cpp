@@ -77,8 +77,8 @@ void BatchReplay::prepare(const InflationStep& step) {
 }
 
 void BatchReplay::update() {
-  inflation_.inflate(update_box_, [this](std::size_t index) { return occupied_[index] != 0; },
-                     &inflated_);
+  inflation_.inflate(
+      update_box_, [this](std::size_t index) { return occupied_[index] != 0; }, &inflated_);
 }
 
 void BatchReplay::setOccupied(const std::vector<VoxelIndex>& voxels, std::uint8_t value) {

@@ -130,11 +130,17 @@ def score_bins(samples, reach):
     return bins
 
 
+def bin_name(low, high):
+    if not math.isfinite(high):
+        return f'>= {low}'
+    return str(low) if high == low + 1 else f'{low} - {high - 1}'
+
+
 def report_scores(samples, _summary):
     for reach in (2, 4, 10):
         rows = []
         for (low, high), frames, times in score_bins(samples, reach):
-            name = f'{low} - {high - 1}' if math.isfinite(high) else f'>= {low}'
+            name = bin_name(low, high)
             bfs = in_us(times['bfs']) if 'bfs' in times else ''
             rows.append([name, frames, in_us(times['incremental']), bfs,
                          in_us(times['byte_batch'])])

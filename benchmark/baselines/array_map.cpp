@@ -39,7 +39,8 @@ void ArrayMap::integrate(const Frame& frame) {
     if (clipToBox(origin, box, &end, &is_return)) castRay(origin, end, is_return);
   }
   applyObservations();
-  inflation_.inflate(box, [this](std::size_t index) { return isOccupied(index); }, &inflated_);
+  inflation_.inflate(
+      box, [this](std::size_t index) { return isOccupied(index); }, &inflated_);
 }
 
 void ArrayMap::observe(const VoxelIndex& v, bool hit) {

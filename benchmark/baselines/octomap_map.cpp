@@ -26,8 +26,7 @@ void OctomapMap::integrate(const Frame& frame) {
   cloud_.clear();
   for (const PixelPoint& point : points_) {
     const Eigen::Vector3d ray = point.end_W - origin;
-    const double scale =
-        point.is_return ? 1.0 : kBeyond * config_.max_ray_length / ray.norm();
+    const double scale = point.is_return ? 1.0 : kBeyond * config_.max_ray_length / ray.norm();
     cloud_.push_back(pointOf(origin + scale * ray));
   }
   const bool lazy = false;

@@ -12,9 +12,7 @@ class PerPixelMap : public ArrayMap {
 
  protected:
   void castRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end, bool is_return) override;
-  bool isHit(std::uint16_t hits, std::uint16_t /*observations*/) const override {
-    return hits > 0;
-  }
+  bool isHit(std::uint16_t hits, std::uint16_t /*observations*/) const override { return hits > 0; }
 };
 
 }  // namespace fiimap::bench

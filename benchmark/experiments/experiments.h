@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <string>
 
 #include "recording.h"
 #include "samples.h"
@@ -12,6 +12,9 @@ namespace fiimap::bench {
 
 /// Whole pipelines, ours and the baselines, at 0.2, 0.1 and 0.05 m, inflation of 2 voxels.
 void measurePipelines(const Recording& recording, Samples* samples);
+
+/// One of these pipelines without measuring: for callgrind.
+void runPipelineOnce(const Recording& recording, const std::string& method, double resolution);
 
 /// Inflation alone at 0.1 m for a reach of 1 to 10 voxels, with the change score of every frame.
 void measureInflation(const Recording& recording, Samples* samples);

@@ -32,9 +32,9 @@ std::vector<Variant> resolutions() {
 
 std::vector<Variant> windows() {
   std::vector<Variant> variants;
-  for (const Eigen::Vector3d& size : {Eigen::Vector3d(20.0, 20.0, 6.0),
-                                      Eigen::Vector3d(100.0, 100.0, 6.0),
-                                      Eigen::Vector3d(400.0, 400.0, 12.0)}) {
+  for (const Eigen::Vector3d& size :
+       {Eigen::Vector3d(20.0, 20.0, 6.0), Eigen::Vector3d(100.0, 100.0, 6.0),
+        Eigen::Vector3d(400.0, 400.0, 12.0)}) {
     MapperConfig config = configAt(kResolution, kReach);
     config.map_size_x = size.x();
     config.map_size_y = size.y();

@@ -1,6 +1,6 @@
 #include <memory>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "experiments.h"
 #include "interleave.h"
@@ -33,11 +33,12 @@ void measurePipelines(const Recording& recording, Samples* samples) {
   const std::vector<Frame>& frames = recording.frames;
   for (const Comparison& comparison : comparisons()) {
     const MapperConfig config = configAt(comparison.resolution, kReach);
+    const nlohmann::json setting = {{"resolution", comparison.resolution}};
     std::vector<std::unique_ptr<MappingMethod>> methods;
     std::vector<Series> series;
     for (const std::string& name : comparison.methods) {
       methods.push_back(makeMethod(name, config, frames));
-      series.push_back({"pipeline", recording.name, name, {{"resolution", comparison.resolution}}, {}});
+      series.push_back({"pipeline", recording.name, name, setting, {}});
     }
     interleave(methods.size(), frames.size(), [&](std::size_t method, std::size_t frame) {
       series[method].values.push_back(
@@ -45,6 +46,12 @@ void measurePipelines(const Recording& recording, Samples* samples) {
     });
     for (const Series& one : series) samples->add(one);
   }
+}
+
+void runPipelineOnce(const Recording& recording, const std::string& method_name,
+                     double resolution) {
+  const auto method = makeMethod(method_name, configAt(resolution, kReach), recording.frames);
+  for (const Frame& frame : recording.frames) method->integrate(frame);
 }
 
 }  // namespace fiimap::bench

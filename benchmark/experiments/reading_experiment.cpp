@@ -48,7 +48,8 @@ void measureReading(const Recording& recording, Samples* samples) {
     memory.values.push_back(static_cast<double>(mapper.memoryBytes()));
     memory.values.push_back(static_cast<double>(mapper.grid().worstCaseMemoryBytes()));
     Series found{"queries_inflated", recording.name, kFiimap, setting, {}};
-    found.values.push_back(static_cast<double>(inflated));  // keeps the queries from being optimised out
+    found.values.push_back(
+        static_cast<double>(inflated));  // keeps the queries from being optimised out
     for (const Series& one : {snapshots, queries, memory, found}) samples->add(one);
   }
 }
