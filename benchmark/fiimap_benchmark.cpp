@@ -6,7 +6,9 @@
 
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -51,37 +53,24 @@ void runPipeline(benchmark::State& state, const Recording& recording, double res
   const auto method = makeMethod(name, config, recording.frames);
   std::size_t next = 0;
   for (auto _ : state) {
-    const Frame& frame = recording.frames[next++ % recording.frames.size()];
+    const Frame& frame = recording.frames[next++];
     state.SetIterationTime(microsecondsOf([&] { method->integrate(frame); }) / kSecond);
   }
 }
 
+using MakeReplay = std::function<std::unique_ptr<InflationReplay>()>;
+
 /// All steps of the recording, from an empty map on, are one iteration; times are per frame.
-void runInflation(benchmark::State& state, const Recording& recording,
-                  const std::vector<InflationStep>& steps, InflationMethod method, int reach) {
-  MapperConfig config = configAt(kInflationResolution, reach);
-  config.inflation_method = method;
+void runInflation(benchmark::State& state, const std::vector<InflationStep>& steps,
+                  const MakeReplay& make) {
   for (auto _ : state) {
-    InflaterReplay replay(config);
+    const std::unique_ptr<InflationReplay> replay = make();
     double time = 0.0;
     for (const InflationStep& step : steps) {
-      replay.prepare(step);
-      time += microsecondsOf([&] { replay.update(); });
+      replay->prepare(step);
+      time += microsecondsOf([&] { replay->update(); });
     }
-    state.SetIterationTime(time / kSecond / recording.frames.size());
-  }
-}
-
-void runByteBatch(benchmark::State& state, const Recording& recording,
-                  const std::vector<InflationStep>& steps, int reach) {
-  const MapperConfig config = configAt(kInflationResolution, reach, ElementShape::kCube);
-  BatchReplay replay(config, boxAroundFrames(config, recording.frames));
-  std::size_t next = 0;
-  for (auto _ : state) {
-    // After the last step the first one again: the map is then not that of the recording, but as
-    // full of obstacles.
-    replay.prepare(steps[next++ % steps.size()]);
-    state.SetIterationTime(microsecondsOf([&] { replay.update(); }) / kSecond);
+    state.SetIterationTime(time / kSecond / steps.size());
   }
 }
 
@@ -109,22 +98,25 @@ std::string nameOf(const std::string& what, const Recording& recording, double r
   return name.str();
 }
 
+/// A fixed number of iterations: Google Benchmark would otherwise repeat the whole pipeline until a
+/// stage of microseconds has taken its share of a second.
 template <typename... Arguments>
-void add(const std::string& name, Arguments&&... arguments) {
+void add(const std::string& name, std::size_t iterations, Arguments&&... arguments) {
   benchmark::RegisterBenchmark(name.c_str(), std::forward<Arguments>(arguments)...)
       ->UseManualTime()
+      ->Iterations(iterations)
       ->Unit(benchmark::kMicrosecond);
 }
 
 void addPipelines(const Recording& recording) {
   for (const double resolution : kResolutions) {
     for (const auto& [stage, stage_name] : stages()) {
-      add(nameOf(stage_name, recording, resolution), runStage, std::cref(recording), resolution,
-          stage);
+      add(nameOf(stage_name, recording, resolution), recording.frames.size(), runStage,
+          std::cref(recording), resolution, stage);
     }
     for (const char* method : {kFiimap, kEgoStyle, kPerPixel, kOctomap}) {
-      add(nameOf(std::string("pipeline/") + method, recording, resolution), runPipeline,
-          std::cref(recording), resolution, std::string(method));
+      add(nameOf(std::string("pipeline/") + method, recording, resolution), recording.frames.size(),
+          runPipeline, std::cref(recording), resolution, std::string(method));
     }
     benchmark::RegisterBenchmark(nameOf("query", recording, resolution).c_str(), runQuery,
                                  std::cref(recording), resolution);
@@ -132,15 +124,19 @@ void addPipelines(const Recording& recording) {
 }
 
 void addInflation(const Recording& recording, const std::vector<InflationStep>& steps) {
-  const std::string end = "/" + recording.name + "/L";
   for (int reach = 1; reach <= kMaxReach; ++reach) {
-    add("inflation/incremental" + end + std::to_string(reach), runInflation, std::cref(recording),
-        std::cref(steps), InflationMethod::kIncremental, reach);
-    add("inflation/byte_batch" + end + std::to_string(reach), runByteBatch, std::cref(recording),
-        std::cref(steps), reach);
+    const MapperConfig config = configAt(kInflationResolution, reach);
+    const auto add_method = [&](const std::string& name, const MakeReplay& make) {
+      add("inflation/" + name + "/" + recording.name + "/L" + std::to_string(reach), 1,
+          runInflation, std::cref(steps), make);
+    };
+    add_method("incremental", [config] { return std::make_unique<InflaterReplay>(config); });
+    const VoxelBox box = boxAroundFrames(config, recording.frames);
+    add_method("byte_batch", [config, box] { return std::make_unique<BatchReplay>(config, box); });
     if (reach > kMaxBfsReach) continue;
-    add("inflation/bfs" + end + std::to_string(reach), runInflation, std::cref(recording),
-        std::cref(steps), InflationMethod::kBfs, reach);
+    MapperConfig bfs_config = config;
+    bfs_config.inflation_method = InflationMethod::kBfs;
+    add_method("bfs", [bfs_config] { return std::make_unique<InflaterReplay>(bfs_config); });
   }
 }
 

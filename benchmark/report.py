@@ -1,18 +1,21 @@
 #!/usr/bin/python3
 """Prints tables of what fiimap_compare measured, and draws plots.
 
-  benchmark/report.py SAMPLES.json [--plots DIRECTORY] [--json FILE]
+  benchmark/report.py SAMPLES.json [--plots DIRECTORY] [--json FILE] [--into MARKDOWN]
 
 Ratios are between medians of series that took turns in one process, and, where it says so, the
 least of the ratios frame by frame.
 """
 import argparse
+import datetime
 import json
 import math
 import pathlib
+import platform
 import statistics
 
 MILLISECONDS = 1e-3  # per microsecond
+BEGIN, END = '<!-- figures -->', '<!-- end of figures -->'
 SCORE_BINS = [0, 1, 10, 25, 50, 100, 200, 400, 800, 1600, 3200, math.inf]
 
 
@@ -58,14 +61,24 @@ class Samples:
 
 
 def table(title, header, rows):
-    """Markdown, so that it can go into docs/performance.md as it is."""
+    """Markdown, so that it can go into docs/performance.md as it is; nothing without rows."""
     if not rows:
-        return
+        return ''
     rows = [[str(cell) for cell in row] for row in rows]
     widths = [max(len(line[i]) for line in [header] + rows) for i in range(len(header))]
-    print(f'\n### {title}\n')
-    for line in [header, ['-' * w for w in widths]] + rows:
-        print('| ' + ' | '.join(cell.ljust(w) for cell, w in zip(line, widths)) + ' |')
+    lines = ['| ' + ' | '.join(cell.ljust(w) for cell, w in zip(line, widths)) + ' |'
+             for line in [header, ['-' * w for w in widths]] + rows]
+    return f'### {title}\n\n' + '\n'.join(lines) + '\n\n'
+
+
+def machine():
+    """What was measured on."""
+    cpu = platform.processor() or platform.machine()
+    for line in pathlib.Path('/proc/cpuinfo').read_text().splitlines():
+        if line.startswith('model name'):
+            cpu = line.split(':', 1)[1].strip()
+            break
+    return f'Measured {datetime.date.today()} on one core of: {cpu}.\n\n'
 
 
 def in_ms(series):
@@ -92,7 +105,7 @@ def report_pipeline(samples, summary):
                          f'{ratio:.1f}x', f'{min(frame_ratios(s, ours)):.1f}x'])
             summary[f'pipeline {recording} {resolution} {name}'] = {
                 'median_us': s.median, 'p95_us': s.p95, 'max_us': s.max, 'ratio': ratio}
-    table('Whole pipeline, from the depth image to the inflated map, ms per frame',
+    return table('Whole pipeline, from the depth image to the inflated map, ms per frame',
           ['recording', 'm', 'method', 'median', 'p95', 'max', 'p95 / median',
            'median / fiimap', 'least per frame'], rows)
 
@@ -108,7 +121,7 @@ def report_inflation(samples, summary):
         summary[f'inflation {recording} {reach} {shape}'] = {
             'median_us': ours.median, 'p95_us': ours.p95, 'max_us': ours.max,
             'batch_median_us': batch.median, 'ratio': ratio, 'least_ratio': least}
-    table('Inflation alone at 0.1 m, us per frame',
+    return table('Inflation alone at 0.1 m, us per frame',
           ['recording', 'L', 'shape', 'incremental median', 'p95', 'max', 'bfs median',
            'byte batch median', 'p95', 'batch / incremental', 'least per frame'], rows)
 
@@ -137,6 +150,7 @@ def bin_name(low, high):
 
 
 def report_scores(samples, _summary):
+    text = ''
     for reach in (2, 4, 10):
         rows = []
         for (low, high), frames, times in score_bins(samples, reach):
@@ -144,11 +158,13 @@ def report_scores(samples, _summary):
             bfs = in_us(times['bfs']) if 'bfs' in times else ''
             rows.append([name, frames, in_us(times['incremental']), bfs,
                          in_us(times['byte_batch'])])
-        table(f'Inflation by change score at 0.1 m, ball, L = {reach}, median us over all recordings',
-              ['change score', 'frames', 'incremental', 'bfs', 'byte batch'], rows)
+        text += table(f'Inflation by change score at 0.1 m, ball, L = {reach}, median us',
+                      ['change score', 'frames', 'incremental', 'bfs', 'byte batch'], rows)
+    return text
 
 
 def report_growth(samples, summary):
+    text = ''
     for key, unit in (('resolution', 'm'), ('window', 'm'), ('range', 'm'), ('reach', 'voxels')):
         rows = []
         for s in samples.of(f'growth_{key}'):
@@ -156,18 +172,24 @@ def report_growth(samples, summary):
             name = ' x '.join(f'{v:g}' for v in setting) if isinstance(setting, list) else setting
             rows.append([s.recording, name, *in_ms(s)])
             summary[f'growth_{key} {s.recording} {name}'] = {'median_us': s.median}
-        table(f'Whole pipeline by {key}, ms per frame',
-              ['recording', f'{key} ({unit})', 'median', 'p95', 'max'], rows)
+        text += table(f'Whole pipeline by {key}, ms per frame',
+                      ['recording', f'{key} ({unit})', 'median', 'p95', 'max'], rows)
+    return text
 
 
 def report_worst(samples, summary):
     rows = []
+    flips = samples.groups('flip_change_score', 'resolution')
     for s in samples.of('worst'):
-        rows.append([s.recording, s.setting['resolution'], s.setting['event'],
+        event = s.setting['event']
+        if event == 'flip':
+            score = flips[s.recording, s.setting['resolution']]['fiimap'].median
+            event += f' (change score {score:.0f})'
+        rows.append([s.recording, s.setting['resolution'], event,
                      f'{s.median * MILLISECONDS:.3f}', f'{s.max * MILLISECONDS:.3f}'])
         summary[f'worst {s.recording} {s.setting["resolution"]} {s.setting["event"]}'] = {
             'median_us': s.median, 'max_us': s.max}
-    table('Frames in which something happens, 100 x 100 x 6 m, ms',
+    return table('Frames in which something happens, 100 x 100 x 6 m, ms',
           ['recording', 'm', 'event', 'median', 'max'], rows)
 
 
@@ -182,9 +204,15 @@ def report_reading(samples, summary):
                      f'{1000 * query.median:.1f}', f'{held / 1e6:.1f}', f'{worst / 1e6:.1f}'])
         summary[f'reading {recording} {resolution}'] = {
             'snapshot_us': snapshot.median, 'query_us': query.median, 'memory_bytes': held}
-    table('Reading',
+    return table('Reading',
           ['recording', 'm', 'snapshot median us', 'p95', 'query ns', 'memory MB',
            'memory MB when all was seen'], rows)
+
+
+def insert(text, file):
+    before, rest = file.read_text().split(BEGIN)
+    after = rest.split(END)[1]
+    file.write_text(f'{before}{BEGIN}\n{text}{END}{after}')
 
 
 def main():
@@ -192,12 +220,18 @@ def main():
     parser.add_argument('samples', type=pathlib.Path)
     parser.add_argument('--plots', type=pathlib.Path)
     parser.add_argument('--json', type=pathlib.Path, help='where to write the figures')
+    parser.add_argument('--into', type=pathlib.Path,
+                        help='Markdown file that gets the tables between its marks')
     arguments = parser.parse_args()
     samples = Samples(json.loads(arguments.samples.read_text()))
     summary = {}
+    text = machine()
     for report in (report_pipeline, report_inflation, report_scores, report_growth, report_worst,
                    report_reading):
-        report(samples, summary)
+        text += report(samples, summary)
+    print(text)
+    if arguments.into:
+        insert(text, arguments.into)
     if arguments.json:
         arguments.json.write_text(json.dumps(summary, indent=2) + '\n')
     if arguments.plots:

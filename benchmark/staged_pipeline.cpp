@@ -10,22 +10,16 @@ StagedPipeline::StagedPipeline(const MapperConfig& config, const std::vector<Fra
       projector_(config),
       ray_caster_(VoxelLattice(config.resolution), config.ray_end_cut),
       integrator_(LogOdds(config)),
-      inflater_(makeInflater(config)) {
+      inflater_(makeInflater(config)),
+      grid_(VoxelLattice(config.resolution).sizeOf(config.mapSize())) {
   Mapper mapper(config);
   for (const Frame& frame : frames_) {
     mapper.integrate(frame.image.view, frame.intrinsics, frame.pose);
     windows_.push_back(mapper.grid().window());
   }
-  restart();
-}
-
-void StagedPipeline::restart() {
-  next_ = 0;
-  grid_ = std::make_unique<SlidingGrid>(windows_.front().size());
 }
 
 std::array<double, kStageCount> StagedPipeline::integrateNext() {
-  if (next_ == frames_.size()) restart();
   const Frame& frame = frames_[next_];
   const VoxelBox& window = windows_[next_];
   ++next_;
@@ -37,16 +31,15 @@ std::array<double, kStageCount> StagedPipeline::integrateNext() {
     projector_.project(frame.image.view, frame.intrinsics, frame.pose.T_W_S, &scan_);
   });
   changes_.clear();
-  measure(Stage::kSlide, [&] { grid_->moveTo(window.min, &changes_); });
+  measure(Stage::kSlide, [&] { grid_.moveTo(window.min, &changes_); });
   measure(Stage::kCast, [&] {
     ray_caster_.cast(scan_, updateBox(config_, frame.pose).intersection(window), &mask_);
   });
-  measure(Stage::kFuse, [&] { integrator_.apply(mask_, grid_.get(), &changes_); });
-  measure(Stage::kInflate, [&] { inflater_->update(changes_, grid_.get()); });
+  measure(Stage::kFuse, [&] { integrator_.apply(mask_, &grid_, &changes_); });
+  measure(Stage::kInflate, [&] { inflater_->update(changes_, &grid_); });
   Snapshot::Info info;
   info.resolution = config_.resolution;
-  measure(Stage::kSnapshot,
-          [&] { snapshot_ = std::make_shared<const Snapshot>(grid_.get(), info); });
+  measure(Stage::kSnapshot, [&] { snapshot_ = std::make_shared<const Snapshot>(&grid_, info); });
   return times;
 }
 

@@ -17,13 +17,11 @@ class StagedPipeline {
  public:
   StagedPipeline(const MapperConfig& config, const std::vector<Frame>& frames);
 
-  /// Integrates the next frame; after the last one, the first of an empty map.
+  /// Integrates the next frame; there must be one.
   /// \return microseconds by stage.
   std::array<double, kStageCount> integrateNext();
 
  private:
-  void restart();
-
   MapperConfig config_;
   const std::vector<Frame>& frames_;
   std::vector<VoxelBox> windows_;
@@ -33,7 +31,7 @@ class StagedPipeline {
   RayCaster ray_caster_;
   ScanIntegrator integrator_;
   std::unique_ptr<Inflater> inflater_;
-  std::unique_ptr<SlidingGrid> grid_;
+  SlidingGrid grid_;
   std::shared_ptr<const Snapshot> snapshot_;
   RangeData scan_;
   ScanMask mask_;
