@@ -79,10 +79,18 @@ bool parse(int argc, char** argv, Options* options) {
   return true;
 }
 
+void write(const Samples& samples, const std::string& file) {
+  std::ofstream stream(file);
+  stream << samples.json() << '\n';
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+}
+
 void measure(const Recording& recording, const Options& options, Samples* samples) {
   for (const std::string& name : options.experiments) {
     std::cerr << recording.name << ": " << name << ", " << recording.frames.size() << " frames\n";
     find(name)(recording, samples);
+    // After each one: who interrupts a long run keeps what it has measured.
+    if (!options.json.empty()) write(*samples, options.json);
   }
 }
 
@@ -98,11 +106,6 @@ int run(const Options& options) {
     } else {
       measure(recording, options, &samples);
     }
-  }
-  if (!options.json.empty()) {
-    std::ofstream stream(options.json);
-    stream << samples.json() << '\n';
-    if (!stream.flush()) throw std::runtime_error("cannot write " + options.json);
   }
   return agree ? 0 : 1;
 }

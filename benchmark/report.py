@@ -209,6 +209,27 @@ def report_reading(samples, summary):
            'memory MB when all was seen'], rows)
 
 
+def overview(samples, summary):
+    """The ratios that matter most, from what the other reports found."""
+    rows = []
+    for recording in dict.fromkeys(s.recording for s in samples.series):
+        for other in ('ego', 'ego_invalid_far', 'octomap'):
+            figures = summary.get(f'pipeline {recording} 0.1 {other}')
+            if figures:
+                rows.append([recording, f'pipeline against {other}, 0.1 m, L = 2',
+                             f'{figures["ratio"]:.1f}x'])
+        figures = summary.get(f'inflation {recording} 2 ball')
+        if figures:
+            rows.append([recording, 'inflation against byte batch, 0.1 m, L = 2, ball',
+                         f'{figures["ratio"]:.0f}x'])
+        least = [v['least_ratio'] for k, v in summary.items()
+                 if k.startswith(f'inflation {recording} ')]
+        if least:
+            rows.append([recording, 'the same, least of all frames, L and shapes',
+                         f'{min(least):.1f}x'])
+    return table('Ratios', ['recording', 'what', 'times faster'], rows)
+
+
 def insert(text, file):
     before, rest = file.read_text().split(BEGIN)
     after = rest.split(END)[1]
@@ -225,10 +246,11 @@ def main():
     arguments = parser.parse_args()
     samples = Samples(json.loads(arguments.samples.read_text()))
     summary = {}
-    text = machine()
+    text = ''
     for report in (report_pipeline, report_inflation, report_scores, report_growth, report_worst,
                    report_reading):
         text += report(samples, summary)
+    text = machine() + overview(samples, summary) + text
     print(text)
     if arguments.into:
         insert(text, arguments.into)
