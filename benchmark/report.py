@@ -179,18 +179,16 @@ def report_growth(samples, summary):
 
 def report_worst(samples, summary):
     rows = []
-    flips = samples.groups('flip_change_score', 'resolution')
+    scores = samples.groups('worst_change_score', 'resolution', 'event')
     for s in samples.of('worst'):
-        event = s.setting['event']
-        if event == 'flip':
-            score = flips[s.recording, s.setting['resolution']]['fiimap'].median
-            event += f' (change score {score:.0f})'
-        rows.append([s.recording, s.setting['resolution'], event,
+        resolution, event = s.setting['resolution'], s.setting['event']
+        score = scores[s.recording, resolution, event]['fiimap'].median
+        rows.append([s.recording, resolution, event, f'{score:.0f}',
                      f'{s.median * MILLISECONDS:.3f}', f'{s.max * MILLISECONDS:.3f}'])
-        summary[f'worst {s.recording} {s.setting["resolution"]} {s.setting["event"]}'] = {
+        summary[f'worst {s.recording} {resolution} {event}'] = {
             'median_us': s.median, 'max_us': s.max}
     return table('Frames in which something happens, 100 x 100 x 6 m, ms',
-          ['recording', 'm', 'event', 'median', 'max'], rows)
+          ['recording', 'm', 'event', 'change score', 'median', 'max'], rows)
 
 
 def report_reading(samples, summary):

@@ -4,6 +4,8 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments.h"
 #include "mapping_method.h"
@@ -13,7 +15,7 @@ namespace fiimap::bench {
 namespace {
 
 constexpr int kReach = 2;             // voxels
-constexpr int kEvents = 10;           // of each kind
+constexpr int kRounds = 10;           // of each event
 constexpr int kUsualFrames = 5;       // between two events
 constexpr double kTeleport = 1000.0;  // m
 constexpr double kFlippedShare = 0.3;
@@ -26,7 +28,7 @@ class EventfulMap {
  public:
   EventfulMap(const MapperConfig& config, const std::vector<Frame>& frames)
       : mapper_(config), frames_(frames) {
-    for (std::size_t i = 0; i + 1 < frames_.size() / 2; ++i) integrateNext();
+    for (std::size_t i = 0; i <= frames_.size() / 2; ++i) integrateNext();
   }
 
   /// Goes on along the recording, at its end from the beginning.
@@ -61,31 +63,6 @@ class EventfulMap {
   Eigen::Vector3d vehicle_shift_W_ = Eigen::Vector3d::Zero();
 };
 
-/// Times of the frames at which `event` happens.
-std::vector<double> timesOf(EventfulMap* map, const std::function<void()>& event) {
-  std::vector<double> times;
-  for (int i = 0; i < kEvents; ++i) {
-    times.push_back(microsecondsOf(event));
-    for (int j = 0; j < kUsualFrames; ++j) map->integrateNext();
-  }
-  return times;
-}
-
-/// The vehicle steps by one voxel while the camera looks at the same; nothing else changes.
-std::vector<double> timesOfSlide(const MapperConfig& usual_config, const std::vector<Frame>& frames,
-                                 int axis) {
-  MapperConfig config = usual_config;
-  config.slide_distance = 0.0;  // the window follows every step
-  EventfulMap map(config, frames);
-  std::vector<double> times;
-  for (int i = 0; i < kEvents; ++i) {
-    map.integrateNewest();
-    map.shiftVehicle(axis);
-    times.push_back(microsecondsOf([&] { map.integrateNewest(); }));
-  }
-  return times;
-}
-
 /// The frame with patches, a share of the image, moved nearer to the camera.
 Frame withPatches(const Frame& frame) {
   const DepthImage& image = frame.image.view;
@@ -110,56 +87,91 @@ Frame withPatches(const Frame& frame) {
   return changed;
 }
 
+/// Something that happens to a map of its own, again and again.
+struct Event {
+  std::string name;
+  std::unique_ptr<EventfulMap> map;
+  std::function<void()> prepare;
+  std::function<void()> happen;  ///< what is measured
+  std::vector<double> times;
+  std::vector<double> change_scores;
+};
+
+/// A jump or a reset between usual frames.
+Event usualEvent(const std::string& name, const MapperConfig& config,
+                 const std::vector<Frame>& frames,
+                 const std::function<void(EventfulMap*)>& disturb) {
+  auto map = std::make_unique<EventfulMap>(config, frames);
+  EventfulMap* m = map.get();
+  const auto prepare = [m] {
+    for (int i = 0; i < kUsualFrames; ++i) m->integrateNext();
+  };
+  const auto happen = [m, disturb] {
+    disturb(m);
+    m->integrateNext();
+  };
+  return {name, std::move(map), prepare, happen, {}, {}};
+}
+
+/// The vehicle steps by one voxel while the camera looks at the same; nothing else changes.
+Event slideEvent(const std::string& name, MapperConfig config, const std::vector<Frame>& frames,
+                 int axis) {
+  config.slide_distance = 0.0;  // the window follows every step
+  auto map = std::make_unique<EventfulMap>(config, frames);
+  EventfulMap* m = map.get();
+  const auto prepare = [m, axis] {
+    m->integrateNewest();
+    m->shiftVehicle(axis);
+  };
+  return {name, std::move(map), prepare, [m] { m->integrateNewest(); }, {}, {}};
+}
+
 /// Patches of the surface jump to and fro, and one look is enough to believe it: in every frame
 /// they leave one place and appear at another.
-std::vector<double> timesOfFlips(const MapperConfig& usual_config, const std::vector<Frame>& frames,
-                                 std::vector<double>* change_scores) {
-  MapperConfig config = usual_config;
+Event flipEvent(MapperConfig config, const std::vector<Frame>& frames) {
   config.p_hit = 0.97;
   config.p_max = 0.88;
   config.p_miss = 0.30;
   config.p_min = 0.29;
-  EventfulMap map(config, frames);
-  const Frame still = map.newest();
-  const Frame patched = withPatches(still);
-  std::vector<double> times;
-  for (int i = 0; i < kEvents; ++i) {
-    map.see(i % 2 == 0 ? patched : still);
-    times.push_back(microsecondsOf([&] { map.integrateNewest(); }));
-    change_scores->push_back(static_cast<double>(map.changeScore()));
-  }
-  return times;
+  auto map = std::make_unique<EventfulMap>(config, frames);
+  EventfulMap* m = map.get();
+  const auto prepare = [m, next = withPatches(m->newest()), other = m->newest()]() mutable {
+    m->see(next);
+    std::swap(next, other);
+  };
+  return {"flip", std::move(map), prepare, [m] { m->integrateNewest(); }, {}, {}};
+}
+
+std::vector<Event> makeEvents(const MapperConfig& config, const std::vector<Frame>& frames) {
+  std::vector<Event> events;
+  events.push_back(usualEvent("none", config, frames, [](EventfulMap* /*map*/) {}));
+  events.push_back(usualEvent("reset", config, frames, [](EventfulMap* map) { map->reset(); }));
+  events.push_back(
+      usualEvent("teleport", config, frames, [](EventfulMap* map) { map->teleport(); }));
+  events.push_back(slideEvent("slide_x", config, frames, 0));
+  events.push_back(slideEvent("slide_y", config, frames, 1));
+  events.push_back(slideEvent("slide_z", config, frames, 2));
+  events.push_back(flipEvent(config, frames));
+  return events;
 }
 
 }  // namespace
 
 void measureWorstCases(const Recording& recording, Samples* samples) {
   for (const double resolution : {0.1, 0.05}) {
-    const MapperConfig config = configAt(resolution, kReach);
-    const std::vector<Frame>& frames = recording.frames;
-    const auto add = [&](const std::string& event, const std::vector<double>& times) {
-      const nlohmann::json setting = {{"resolution", resolution}, {"event", event}};
-      samples->add({"worst", recording.name, kFiimap, setting, times});
-    };
-    EventfulMap usual(config, frames);
-    add("none", timesOf(&usual, [&] { usual.integrateNext(); }));
-    EventfulMap reset(config, frames);
-    add("reset", timesOf(&reset, [&] {
-          reset.reset();
-          reset.integrateNext();
-        }));
-    EventfulMap teleported(config, frames);
-    add("teleport", timesOf(&teleported, [&] {
-          teleported.teleport();
-          teleported.integrateNext();
-        }));
-    add("slide_x", timesOfSlide(config, frames, 0));
-    add("slide_y", timesOfSlide(config, frames, 1));
-    add("slide_z", timesOfSlide(config, frames, 2));
-    std::vector<double> change_scores;
-    add("flip", timesOfFlips(config, frames, &change_scores));
-    const nlohmann::json setting = {{"resolution", resolution}};
-    samples->add({"flip_change_score", recording.name, kFiimap, setting, change_scores});
+    std::vector<Event> events = makeEvents(configAt(resolution, kReach), recording.frames);
+    for (int round = 0; round < kRounds; ++round) {
+      for (Event& event : events) {
+        event.prepare();
+        event.times.push_back(microsecondsOf(event.happen));
+        event.change_scores.push_back(static_cast<double>(event.map->changeScore()));
+      }
+    }
+    for (const Event& event : events) {
+      const nlohmann::json setting = {{"resolution", resolution}, {"event", event.name}};
+      samples->add({"worst", recording.name, kFiimap, setting, event.times});
+      samples->add({"worst_change_score", recording.name, kFiimap, setting, event.change_scores});
+    }
   }
 }
 
