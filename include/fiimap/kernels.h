@@ -5,11 +5,9 @@
 
 #include "fiimap/bit_column.h"
 #include "fiimap/log_odds.h"
+#include "fiimap/vector_room.h"
 
 namespace fiimap {
-
-/// Kernels may write whole vectors: this many numbers more than they have to. No vector is longer.
-constexpr int kVectorRoom = 64;
 
 /// A ray's way over the columns of a box, in slabs: between two borders of its major axis, along
 /// which it advances faster, it crosses at most one border of its minor axis.

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 
+#include "fiimap/vector_room.h"
+
 namespace fiimap {
 
-/// Points as one array per coordinate, which is what vector instructions read and write. Keeps its
-/// memory when it shrinks.
+/// Points as one array per coordinate, which is what vector instructions read and write: there is
+/// room for kVectorRoom more. Keeps its memory when it shrinks.
 class PointList {
  public:
   std::size_t size() const { return size_; }
@@ -40,24 +42,21 @@ class PointList {
   void clear() { size_ = 0; }
   /// Changes the size; new points hold anything.
   void resize(std::size_t size) {
-    if (size > x_.size()) {
-      for (auto* axis : {&x_, &y_, &z_}) axis->resize(size);
+    if (size + kVectorRoom > x_.size()) {
+      for (auto* axis : {&x_, &y_, &z_}) axis->resize(size + kVectorRoom);
     }
     size_ = size;
   }
   void push_back(const Eigen::Vector3f& point) {
-    if (size_ == x_.size()) {
-      for (auto* axis : {&x_, &y_, &z_}) axis->resize(2 * size_ + 1);
-    }
-    x_[size_] = point.x();
-    y_[size_] = point.y();
-    z_[size_] = point.z();
-    ++size_;
+    resize(size_ + 1);
+    x_[size_ - 1] = point.x();
+    y_[size_ - 1] = point.y();
+    z_[size_ - 1] = point.z();
   }
 
  private:
   std::size_t size_ = 0;
-  std::vector<float> x_, y_, z_;  // as long as ever needed; the first size_ are points
+  std::vector<float> x_, y_, z_;  // as long as ever needed, and kVectorRoom
 };
 
 /// One scan in the world frame, whatever sensor it came from.

@@ -103,7 +103,7 @@ ReadingCount DepthProjector::projectRows(const DepthImage& image, const Eigen::V
     row.row_length_2 = ray_of_v_.length_2[i];
 
     const std::size_t first = returns.size();
-    returns.resize(first + samples + kVectorRoom);
+    returns.resize(first + samples);
     const RowCount split =
         kernels_.projectRow(row, list_invalid, returns.x() + first, returns.y() + first,
                             returns.z() + first, others_.data());

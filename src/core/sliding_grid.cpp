@@ -161,7 +161,12 @@ void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std
   Slot& slot = liveSlot(x, y);
   const std::uint64_t* const old_words = slot.tile->column(plane, x, y, layout_);
   if (std::equal(words, words + count, old_words)) return;
-  counts_[static_cast<int>(plane)] += popcount(words, count) - popcount(old_words, count);
+  std::int64_t& voxels = counts_[static_cast<int>(plane)];
+  for (int w = 0; w < count; ++w) {
+    // Counting bits is slow without an instruction for it, and few words differ.
+    if (words[w] == old_words[w]) continue;
+    voxels += __builtin_popcountll(words[w]) - __builtin_popcountll(old_words[w]);
+  }
   std::copy_n(words, count, writableTile(slot).column(plane, x, y, layout_));
 }
 

@@ -9,17 +9,13 @@
 namespace fiimap {
 namespace {
 
-/// Without SSE4.1, std::floor is a function call.
-inline std::int32_t floorToInt(float value) {
-  const auto truncated = static_cast<std::int32_t>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
-}
-
 inline float clamp(float value, float low, float high) {
   return std::min(std::max(value, low), high);
 }
 
-constexpr int kBlock = 16;
+/// Long enough that compilers keep loops over it, which they vectorize, instead of unrolling them.
+constexpr int kBlock = 32;
+constexpr int kGroup = 8;  // that are mostly alike
 
 template <int Step>
 void readDepthsAtStep(const std::uint8_t* pixels, int step, int samples, float scale,
@@ -47,38 +43,44 @@ void readDepths(const std::uint8_t* pixels, int step, int samples, float scale, 
 }
 
 /// Neighbouring pixels are mostly of one kind: a block of returns needs no decision per pixel and
-/// becomes vector instructions.
+/// becomes vector instructions, for which its length and its own memory are fixed.
 RowCount projectRow(const DepthRow& row, bool list_invalid, float* x, float* y, float* z,
                     std::int32_t* others) {
   RowCount count;
   for (int first = 0; first < row.samples; first += kBlock) {
     const int block = std::min(kBlock, row.samples - first);
     std::int32_t is_return[kBlock];
-    std::int32_t returns = 0;
-    for (int j = 0; j < block; ++j) {
+    float points[3][kBlock];
+    for (int j = 0; j < kBlock; ++j) {
       const int i = first + j;
       const float depth = row.depth[i];
       const float length_2 = depth * depth * (row.length_2[i] + row.row_length_2);
       is_return[j] = (depth >= row.min_depth) & (depth <= row.max_depth) &
-                     (length_2 >= row.min_length_2) & (length_2 <= row.max_length_2);
-      returns += is_return[j];
-      x[count.returns + j] = (row.ray_x[i] + row.row_x) * depth;
-      y[count.returns + j] = (row.ray_y[i] + row.row_y) * depth;
-      z[count.returns + j] = (row.ray_z[i] + row.row_z) * depth;
+                     (length_2 >= row.min_length_2) & (length_2 <= row.max_length_2) & (j < block);
+      points[0][j] = (row.ray_x[i] + row.row_x) * depth;
+      points[1][j] = (row.ray_y[i] + row.row_y) * depth;
+      points[2][j] = (row.ray_z[i] + row.row_z) * depth;
     }
-    if (returns < block) {
-      int kept = count.returns;
-      for (int j = 0; j < block; ++j) {
-        x[kept] = x[count.returns + j];
-        y[kept] = y[count.returns + j];
-        z[kept] = z[count.returns + j];
-        kept += is_return[j];
+    for (int group = 0; group < block; group += kGroup) {
+      int in_group = 0;
+      for (int j = group; j < group + kGroup; ++j) in_group += is_return[j];
+      if (in_group == kGroup) {
+        std::copy_n(points[0] + group, kGroup, x + count.returns);
+        std::copy_n(points[1] + group, kGroup, y + count.returns);
+        std::copy_n(points[2] + group, kGroup, z + count.returns);
+        count.returns += kGroup;
+        continue;
+      }
+      for (int j = group; j < std::min(group + kGroup, block); ++j) {
+        x[count.returns] = points[0][j];
+        y[count.returns] = points[1][j];
+        z[count.returns] = points[2][j];
+        count.returns += is_return[j];
         others[count.others] = first + j;
         const bool is_valid = row.depth[first + j] == row.depth[first + j];
         count.others += (1 - is_return[j]) & (list_invalid || is_valid ? 1 : 0);
       }
     }
-    count.returns += returns;
   }
   return count;
 }
@@ -106,22 +108,19 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
   std::int32_t changed[kBlock];
   for (int first = 0; first < points.count; first += kBlock) {
     const int block = std::min(kBlock, points.count - first);
-    for (int j = 0; j < block; ++j) changed[j] = 0;
+    for (int j = 0; j < kBlock; ++j) changed[j] = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float size = static_cast<float>(points.size[axis]);
-      for (int j = 0; j < block; ++j) {
+      for (int j = 0; j < kBlock; ++j) {
         p[axis][j] = points.origin[axis] + offset[axis][first + j] * points.to_voxels;
         const bool inside = (p[axis][j] >= 0.0f) & (p[axis][j] < size);
         voxel[axis][j + 1] = inside ? static_cast<std::int32_t>(p[axis][j]) : kNone;
       }
-      for (int j = 0; j < block; ++j) {
+      for (int j = 0; j < kBlock; ++j) {
         changed[j] |= (voxel[axis][j + 1] ^ voxel[axis][j]) | (voxel[axis][j + 1] >> 31);
       }
-      voxel[axis][0] = voxel[axis][block];
+      voxel[axis][0] = voxel[axis][kBlock];
     }
-    std::int32_t any = 0;
-    for (int j = 0; j < block; ++j) any |= changed[j];
-    if (any == 0) continue;
     for (int j = 0; j < block; ++j) {
       if (changed[j] == 0) continue;
       std::int32_t v[3] = {voxel[0][j + 1], voxel[1][j + 1], voxel[2][j + 1]};
@@ -145,29 +144,40 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
   walk->reserve(line.slabs);
   std::int32_t* const column = walk->column.data();
   float* const t = walk->t.data();
-  float border[kBlock + 1];
+  const std::int32_t second_offset = line.minor_step * line.minor_offset;
+  float border[kBlock + 1], crossing[kBlock];
   std::int32_t cell[kBlock + 1];
+  const auto cellAt = [&](float at) {
+    const auto minor = static_cast<std::int32_t>(line.minor_origin + line.minor_direction * at);
+    return std::min(std::max(minor, 0), line.last_minor_cell);
+  };
   int k = 0;
+  border[0] = clamp(line.first_border * line.t_per_major, line.start_t, 1.0f);
+  cell[0] = cellAt(border[0]);
   for (int first = 0; first < line.slabs; first += kBlock) {
     const int block = std::min(kBlock, line.slabs - first);
-    for (int j = 0; j <= block; ++j) {
+    for (int j = 1; j <= kBlock; ++j) {
       const float distance = line.first_border + static_cast<float>(first + j) * line.major_step;
       border[j] = clamp(distance * line.t_per_major, line.start_t, 1.0f);
     }
-    if (first + block == line.slabs) border[block] = 1.0f;
-    for (int j = 0; j <= block; ++j) {
-      const float minor = line.minor_origin + line.minor_direction * border[j];
-      cell[j] = std::min(std::max(static_cast<std::int32_t>(minor), 0), line.last_minor_cell);
+    border[block] = first + block == line.slabs ? 1.0f : border[block];
+    for (int j = 1; j <= kBlock; ++j) cell[j] = cellAt(border[j]);
+    for (int j = 0; j < kBlock; ++j) {
+      const float at = (static_cast<float>(cell[j]) + line.minor_border) * line.t_per_minor;
+      crossing[j] = clamp(at, border[j], border[j + 1]);
     }
-    for (int j = 0; j < block; ++j) {
-      const float crossing = (static_cast<float>(cell[j]) + line.minor_border) * line.t_per_minor;
+    std::int32_t slab = line.first_column + first * line.major_offset;
+    for (int j = 0; j < block; ++j, slab += line.major_offset) {
       // Both columns of the slab are written; the second is kept when there is one.
-      column[k] = line.first_column + (first + j) * line.major_offset + cell[j] * line.minor_offset;
-      column[k + 1] = column[k] + line.minor_step * line.minor_offset;
+      const std::int32_t first_of_slab = slab + cell[j] * line.minor_offset;
+      column[k] = first_of_slab;
+      column[k + 1] = first_of_slab + second_offset;
       t[k] = border[j];
-      t[k + 1] = clamp(crossing, border[j], border[j + 1]);
+      t[k + 1] = crossing[j];
       k += cell[j] != cell[j + 1] ? 2 : 1;
     }
+    border[0] = border[kBlock];
+    cell[0] = cell[kBlock];
   }
   t[k] = 1.0f;
   walk->size = k;
@@ -192,23 +202,37 @@ constexpr RunMasks makeRunMasks() {
 constexpr RunMasks kRunMasks = makeRunMasks();
 
 void freeFan(const FanPart& fan, int height, std::uint64_t* free) {
+  const int first_word = std::max(static_cast<int>(fan.lowest), 0) / kWordBits;
+  const int last_word =
+      std::min(std::max(static_cast<int>(fan.highest), 0), height - 1) / kWordBits;
+  // Truncation is the floor, because negative heights are cut off.
+  const float origin_low = fan.origin_z;
+  const float origin_end = fan.origin_z + 1.0f;
+  const float rise_low = fan.rise_low;
+  const float rise_high = fan.rise_high;
   std::int32_t low[kBlock], end[kBlock];
-  const int first_word = std::max(floorToInt(fan.lowest), 0) / kWordBits;
-  const int last_word = std::min(floorToInt(fan.highest), height - 1) / kWordBits;
   for (int first = 0; first < fan.columns; first += kBlock) {
     const int count = std::min(kBlock, fan.columns - first);
     const float* const t_low = fan.t_low + first;
     const float* const t_high = fan.t_high + first;
     const std::int32_t* const column = fan.column + first;
-    for (int k = 0; k < count; ++k) {
-      low[k] = std::max(floorToInt(fan.origin_z + fan.rise_low * t_low[k]), 0);
+    for (int k = 0; k < kBlock; ++k) {
+      low[k] = static_cast<std::int32_t>(std::max(origin_low + rise_low * t_low[k], 0.0f));
     }
-    for (int k = 0; k < count; ++k) {
-      end[k] = std::min(floorToInt(fan.origin_z + fan.rise_high * t_high[k]), height - 1) + 1;
+    for (int k = 0; k < kBlock; ++k) {
+      const auto above =
+          static_cast<std::int32_t>(std::max(origin_end + rise_high * t_high[k], 0.0f));
+      end[k] = std::min(above, height);
     }
     for (int w = first_word; w <= last_word; ++w) {
       std::uint64_t* const word = free + w;
       const int base = w * kWordBits;
+      if (first_word == last_word && base == 0) {
+        for (int k = 0; k < count; ++k) {
+          if (low[k] < end[k]) word[column[k]] |= kRunMasks.from[low[k]] & kRunMasks.below[end[k]];
+        }
+        break;
+      }
       for (int k = 0; k < count; ++k) {
         const int from = std::max(low[k] - base, 0);
         const int below = std::min(end[k] - base, kWordBits);
@@ -218,8 +242,7 @@ void freeFan(const FanPart& fan, int height, std::uint64_t* free) {
   }
 }
 
-/// Eight voxels at a time: the bytes of a 64-bit word.
-constexpr int kGroup = 8;
+// Fusion treats a group of voxels at a time: the bytes of a 64-bit word.
 constexpr std::uint64_t kEveryByte = 0x0101010101010101;
 
 /// 0xff where a bit of the index is set.

@@ -1,10 +1,14 @@
 // Compiled once for each instruction set that Highway knows for this processor family.
+//
+// Not for SVE, whose vectors have no size known to the compiler: they cannot be members.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vector_kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -33,6 +37,16 @@ using WordVector = hn::Vec<Words>;
 /// which compilers copy at every call.
 constexpr bool kPacksLanes = HWY_TARGET <= HWY_AVX3;
 
+/// Bit i: lane i is in the mask.
+template <typename D, typename M>
+HWY_INLINE std::uint64_t maskBits(D d, M mask) {
+  std::uint8_t bytes[sizeof(std::uint64_t)] = {};
+  std::uint64_t bits;
+  hn::StoreMaskBits(d, mask, bytes);
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+}
+
 /// Writes the lanes in `kept` side by side, and maybe whole vectors.
 /// \return how many.
 template <typename D, typename V, typename M>
@@ -43,21 +57,14 @@ HWY_INLINE int pack(D d, V lanes, M kept, hn::TFromD<D>* to) {
   }
   constexpr int kMaxLanes = hn::MaxLanes(D());
   HWY_ALIGN hn::TFromD<D> all[kMaxLanes];
-  std::uint8_t bits[sizeof(std::uint64_t)] = {};
-  std::uint64_t mask;
   hn::Store(lanes, d, all);
-  hn::StoreMaskBits(d, kept, bits);
-  std::memcpy(&mask, bits, sizeof(mask));
+  const std::uint64_t mask = maskBits(d, kept);
   int count = 0;
   for (int i = 0; i < static_cast<int>(hn::Lanes(d)); ++i) {
     to[count] = all[i];
     count += (mask >> i) & 1u;
   }
   return count;
-}
-
-HWY_INLINE IntVector floorToInt(FloatVector value) {
-  return hn::ConvertTo(Ints(), hn::Floor(value));
 }
 
 void readDepths(const std::uint8_t* pixels, int step, int samples, float scale, float* depth) {
@@ -221,74 +228,83 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
   }
 }
 
-/// Border i of the slabs of a line, for consecutive i.
-HWY_INLINE FloatVector borderT(const ColumnLine& line, IntVector i) {
-  const Floats f;
-  const auto distance = hn::Add(hn::Set(f, line.first_border),
-                                hn::Mul(hn::ConvertTo(f, i), hn::Set(f, line.major_step)));
-  const auto one = hn::Set(f, 1.0f);
-  const auto t = hn::Mul(distance, hn::Set(f, line.t_per_major));
-  const auto inside = hn::Min(hn::Max(t, hn::Set(f, line.start_t)), one);
-  const auto is_end = hn::Eq(i, hn::Set(Ints(), line.slabs));
-  return hn::IfThenElse(hn::RebindMask(f, is_end), one, inside);
-}
-
-HWY_INLINE IntVector minorCell(const ColumnLine& line, FloatVector t) {
-  const Floats f;
-  const Ints d;
-  const auto minor =
-      hn::Add(hn::Set(f, line.minor_origin), hn::Mul(hn::Set(f, line.minor_direction), t));
-  const auto cell = hn::ConvertTo(d, minor);
-  return hn::Min(hn::Max(cell, hn::Zero(d)), hn::Set(d, line.last_minor_cell));
-}
-
 void walk(const ColumnLine& line, ColumnWalk* walk) {
   const Floats f;
   const Ints d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   walk->reserve(line.slabs);
-  int size = 0;
-  const auto one = hn::Set(d, 1);
-  for (int i = 0; i < line.slabs; i += lanes) {
+  std::int32_t* const walk_column = walk->column.data();
+  float* const walk_t = walk->t.data();
+  const std::int32_t second_offset = line.minor_step * line.minor_offset;
+  const int slabs = line.slabs;
+
+  // Out of the loop by hand: for all that the compiler knows, what it writes could be `line`.
+  const auto one = hn::Set(f, 1.0f);
+  const auto first_border = hn::Set(f, line.first_border);
+  const auto major_step = hn::Set(f, line.major_step);
+  const auto t_per_major = hn::Set(f, line.t_per_major);
+  const auto start_t = hn::Set(f, line.start_t);
+  const auto minor_origin = hn::Set(f, line.minor_origin);
+  const auto minor_direction = hn::Set(f, line.minor_direction);
+  const auto minor_border = hn::Set(f, line.minor_border);
+  const auto t_per_minor = hn::Set(f, line.t_per_minor);
+  const auto last_minor_cell = hn::Set(d, line.last_minor_cell);
+  const auto first_column = hn::Set(d, line.first_column);
+  const auto major_offset = hn::Set(d, line.major_offset);
+  const auto minor_offset = hn::Set(d, line.minor_offset);
+  const auto to_second = hn::Set(d, second_offset);
+  const auto end = hn::Set(d, slabs);
+
+  /// Where the rays cross the border before slab i.
+  const auto borderT = [&](IntVector i) HWY_ATTR {
+    const auto distance = hn::Add(first_border, hn::Mul(hn::ConvertTo(f, i), major_step));
+    const auto inside = hn::Min(hn::Max(hn::Mul(distance, t_per_major), start_t), one);
+    return hn::IfThenElse(hn::RebindMask(f, hn::Eq(i, end)), one, inside);
+  };
+  const auto minorCell = [&](FloatVector t) HWY_ATTR {
+    const auto cell = hn::ConvertTo(d, hn::Add(minor_origin, hn::Mul(minor_direction, t)));
+    return hn::Min(hn::Max(cell, hn::Zero(d)), last_minor_cell);
+  };
+  std::size_t size = 0;
+  for (int i = 0; i < slabs; i += lanes) {
     const auto slab = hn::Iota(d, i);
-    const auto t_in = borderT(line, slab);
-    const auto t_out = borderT(line, hn::Add(slab, one));
-    const auto cell = minorCell(line, t_in);
-    const auto next_cell = minorCell(line, t_out);
-    const auto first = hn::Add(
-        hn::Add(hn::Set(d, line.first_column), hn::Mul(slab, hn::Set(d, line.major_offset))),
-        hn::Mul(cell, hn::Set(d, line.minor_offset)));
-    const auto second = hn::Add(first, hn::Set(d, line.minor_step * line.minor_offset));
-    const auto crossing = hn::Mul(hn::Add(hn::ConvertTo(f, cell), hn::Set(f, line.minor_border)),
-                                  hn::Set(f, line.t_per_minor));
+    const auto t_in = borderT(slab);
+    const auto t_out = borderT(hn::Add(slab, hn::Set(d, 1)));
+    const auto cell = minorCell(t_in);
+    const auto next_cell = minorCell(t_out);
+    const auto first =
+        hn::Add(hn::Add(first_column, hn::Mul(slab, major_offset)), hn::Mul(cell, minor_offset));
+    const auto second = hn::Add(first, to_second);
+    const auto crossing = hn::Mul(hn::Add(hn::ConvertTo(f, cell), minor_border), t_per_minor);
     const auto t_second = hn::Min(hn::Max(crossing, t_in), t_out);
+    const auto in_line = hn::Lt(slab, end);
+    const auto has_second = hn::And(in_line, hn::Ne(cell, next_cell));
 
     // Both columns of each slab side by side; the second is kept when there is one.
-    const auto in_line = hn::Lt(slab, hn::Set(d, line.slabs));
-    const auto has_second = hn::And(in_line, hn::Ne(cell, next_cell));
-    HWY_ALIGN std::int32_t columns[2 * hn::MaxLanes(Ints())], keep[2 * hn::MaxLanes(Ints())];
+    HWY_ALIGN std::int32_t columns[2 * hn::MaxLanes(Ints())];
     HWY_ALIGN float t[2 * hn::MaxLanes(Floats())];
     hn::StoreInterleaved2(first, second, d, columns);
     hn::StoreInterleaved2(t_in, t_second, f, t);
-    hn::StoreInterleaved2(hn::VecFromMask(d, in_line), hn::VecFromMask(d, has_second), d, keep);
     if constexpr (kPacksLanes) {
+      HWY_ALIGN std::int32_t keep[2 * hn::MaxLanes(Ints())];
+      hn::StoreInterleaved2(hn::VecFromMask(d, in_line), hn::VecFromMask(d, has_second), d, keep);
       for (int half = 0; half < 2 * lanes; half += lanes) {
         const auto kept = hn::MaskFromVec(hn::Load(d, keep + half));
-        pack(f, hn::Load(f, t + half), hn::RebindMask(f, kept), walk->t.data() + size);
-        size += pack(d, hn::Load(d, columns + half), kept, walk->column.data() + size);
+        pack(f, hn::Load(f, t + half), hn::RebindMask(f, kept), walk_t + size);
+        size += pack(d, hn::Load(d, columns + half), kept, walk_column + size);
       }
     } else {
-      std::int32_t* const walk_column = walk->column.data();
-      float* const walk_t = walk->t.data();
-      for (int k = 0; k < 2 * lanes; ++k) {
-        walk_column[size] = columns[k];
-        walk_t[size] = t[k];
-        size -= keep[k];  // 0 or -1
+      const std::uint64_t seconds = maskBits(d, has_second);
+      const int count = std::min(lanes, slabs - i);
+      for (int k = 0; k < count; ++k) {
+        std::memcpy(walk_column + size, columns + 2 * k, 2 * sizeof(std::int32_t));
+        std::memcpy(walk_t + size, t + 2 * k, 2 * sizeof(float));
+        size += 1 + ((seconds >> k) & 1u);
       }
     }
   }
   walk->t[size] = 1.0f;
-  walk->size = size;
+  walk->size = static_cast<int>(size);
 }
 
 /// The words whose bits from[k] to below[k] - 1 are set, for some lanes k.
@@ -299,12 +315,10 @@ HWY_INLINE WordVector runMask(Int32Vector from, Int32Vector below) {
   const hn::Rebind<std::int32_t, Words> d32;
   const auto ones = hn::Set(d, ~std::uint64_t{0});
   const auto filled = hn::VecFromMask(d32, hn::Lt(from, below));
-  const auto last = hn::Set(d32, kWordBits - 1);
-  // Distances of an empty run are anything; keep them valid.
-  const auto low = hn::Min(from, last);
-  const auto high = hn::Min(hn::Max(hn::Sub(hn::Set(d32, kWordBits), below), hn::Zero(d32)), last);
-  const auto shift_low = hn::BitCast(d, hn::PromoteTo(d64, low));
-  const auto shift_high = hn::BitCast(d, hn::PromoteTo(d64, high));
+  // What distances beyond a word give is taken away at the end.
+  const auto shift_low = hn::BitCast(d, hn::PromoteTo(d64, from));
+  const auto above = hn::Sub(hn::Set(d32, kWordBits), below);
+  const auto shift_high = hn::BitCast(d, hn::PromoteTo(d64, above));
   const auto run = hn::And(ones << shift_low, ones >> shift_high);
   return hn::And(run, hn::BitCast(d, hn::PromoteTo(d64, filled)));
 }
@@ -319,18 +333,22 @@ void freeFan(const FanPart& fan, int height, std::uint64_t* free) {
   const int first_word = std::max(static_cast<int>(fan.lowest), 0) / kWordBits;
   const int last_word =
       std::min(std::max(static_cast<int>(fan.highest), 0), height - 1) / kWordBits;
-  const auto origin_z = hn::Set(f, fan.origin_z);
+  // Truncation is the floor, because negative heights are cut off.
+  const auto origin_low = hn::Set(f, fan.origin_z);
+  const auto origin_end = hn::Set(f, fan.origin_z + 1.0f);
   const auto rise_low = hn::Set(f, fan.rise_low);
   const auto rise_high = hn::Set(f, fan.rise_high);
-  const auto top = hn::Set(d, height - 1);
+  const auto zero = hn::Zero(f);
+  const auto top = hn::Set(d, height);
   HWY_ALIGN std::uint64_t masks[kMaxLanes];
 
   for (int k = 0; k < fan.columns; k += lanes) {
     const auto t_low = hn::LoadU(f, fan.t_low + k);
     const auto t_high = hn::LoadU(f, fan.t_high + k);
-    const auto low = floorToInt(hn::Add(origin_z, hn::Mul(rise_low, t_low)));
-    const auto high = floorToInt(hn::Add(origin_z, hn::Mul(rise_high, t_high)));
-    const auto end = hn::Add(hn::Min(high, top), hn::Set(d, 1));
+    const auto low = hn::ConvertTo(d, hn::Max(hn::Add(origin_low, hn::Mul(rise_low, t_low)), zero));
+    const auto above =
+        hn::ConvertTo(d, hn::Max(hn::Add(origin_end, hn::Mul(rise_high, t_high)), zero));
+    const auto end = hn::Min(above, top);
     const int count = std::min(lanes, fan.columns - k);
     const std::int32_t* const column = fan.column + k;
     for (int w = first_word; w <= last_word; ++w) {
