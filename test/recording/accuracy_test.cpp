@@ -174,7 +174,7 @@ TEST(AccuracyCommandTest, ForetellsTheSampleFlight) {
     EXPECT_LT(row.at("hit_rate_mean"), 1.0) << row;
     EXPECT_GT(row.at("hit_rate_within_one_voxel_mean"), 0.95) << row;
     EXPECT_LT(row.at("blocked_rate_mean"), 0.5) << row;
-    EXPECT_EQ(row.at("outside_rate_mean"), 0.0) << row;
+    EXPECT_LT(row.at("outside_rate_mean"), 0.001) << row;  // the window is 6 m high
   }
   EXPECT_EQ(json.at("results")[0].at("variant"), "final_map");
   EXPECT_EQ(json.at("results")[1].at("variant"), "online");
