@@ -6,6 +6,7 @@
 
 #include "accuracy_command.h"
 #include "run_command.h"
+#include "truth_command.h"
 
 namespace {
 
@@ -18,6 +19,8 @@ constexpr char kUsage[] =
     "                                      what it cost\n"
     "  fiimap_eval accuracy BAG [options]  holds scans out and compares them with the map of the\n"
     "                                      others\n"
+    "  fiimap_eval truth BAG [options]     compares the map with the exact scene of a synthetic\n"
+    "                                      recording\n"
     "  fiimap_eval parameters              lists every parameter: name, default, unit, allowed\n"
     "                                      values, meaning\n\n";
 
@@ -59,6 +62,18 @@ po::options_description describe(fiimap::AccuracyOptions* accuracy) {
   return options;
 }
 
+po::options_description describe(fiimap::TruthOptions* truth) {
+  po::options_description options = describe("Options of truth", &truth->input);
+  options.add_options()("scene", po::value(&truth->scene)->value_name("FILE"),
+                        "the exact scene (data/README.md)")(
+      "resolutions", po::value(&truth->resolutions)->multitoken()->value_name("M..."),
+      "voxel sizes, one map each; default: that of the configuration")(
+      "snapshots", po::value(&truth->snapshots)->value_name("N"),
+      "compare the map this often, evenly over the recording (10)")(
+      "csv", po::bool_switch(&truth->csv), "print the table as CSV");
+  return options;
+}
+
 /// Reads what follows the command.
 /// \return false when help was asked for, and given.
 bool parse(int argc, char** argv, const po::options_description& visible,
@@ -89,7 +104,8 @@ int runCommand(int argc, char** argv, int (*command)(const Options&)) {
 int printHelp() {
   fiimap::RunOptions run;
   fiimap::AccuracyOptions accuracy;
-  std::cout << kUsage << describe(&run) << '\n' << describe(&accuracy);
+  fiimap::TruthOptions truth;
+  std::cout << kUsage << describe(&run) << '\n' << describe(&accuracy) << '\n' << describe(&truth);
   return 0;
 }
 
@@ -97,13 +113,14 @@ int dispatch(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "run") return runCommand(argc, argv, fiimap::run);
   if (command == "accuracy") return runCommand(argc, argv, fiimap::evaluateAccuracy);
+  if (command == "truth") return runCommand(argc, argv, fiimap::evaluateTruth);
   if (command == "--help" || command == "-h") return printHelp();
   if (command == "parameters") {
     fiimap::printParameters();
     return 0;
   }
   throw std::invalid_argument(
-      "the command must be run, accuracy or parameters; see fiimap_eval --help");
+      "the command must be run, accuracy, truth or parameters; see fiimap_eval --help");
 }
 
 }  // namespace

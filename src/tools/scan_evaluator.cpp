@@ -18,7 +18,8 @@ nlohmann::json toJson(const ScanCounters& counters) {
 
 void ScanEvaluator::play(const EvaluationInput& input) {
   BagPlayer player(input.bag(), input.topics(), input.node());
-  ProgressBar progress(player.scans());
+  total_ = player.scans();
+  ProgressBar progress(total_);
   progress_ = &progress;
   player.play(this, &counters_);
   progress_ = nullptr;

@@ -33,6 +33,8 @@ class ScanEvaluator : private ScanListener {
   virtual void addScan(const SynchronizedScan& scan, std::size_t index) = 0;
   /// The recording began anew: everything before must be forgotten.
   virtual void forget() = 0;
+  /// Scans in the recording.
+  std::size_t total() const { return total_; }
   void warnOnce(const std::string& text);
 
  private:
@@ -42,6 +44,7 @@ class ScanEvaluator : private ScanListener {
   void onWarning(const std::string& text) override { warnOnce(text); }
 
   ScanCounters counters_;
+  std::size_t total_ = 0;
   ProgressBar* progress_ = nullptr;
   std::set<std::string> warned_;
   std::vector<std::string> warnings_;
