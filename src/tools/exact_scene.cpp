@@ -109,6 +109,8 @@ double ExactScene::Shape::distanceAlong(const Eigen::Vector3d& origin_W,
                                         const Eigen::Vector3d& direction_W, double time) const {
   const Eigen::Vector3d origin = toOwnAxes(origin_W, time);
   const Eigen::Vector3d direction = R_W_S.transpose() * direction_W;
+  // Most rays pass far from most shapes: the ball around a shape is tested first.
+  if (origin.cross(direction).squaredNorm() > half_size.squaredNorm()) return kInfinity;
   if (kind == Kind::kBox) return alongBox(origin, direction, half_size);
   if (kind == Kind::kSphere) return alongRound(origin, direction, half_size.x());
   return alongCylinder(origin, direction, half_size.x(), half_size.z());
