@@ -40,12 +40,13 @@ void compareVoxel(const Eigen::Vector3d& center_W, double resolution, const Exac
 void compareWithScene(const Snapshot& map, const ExactScene& scene, const SeenSurface& surface,
                       const VoxelBox& box, double time, TruthCount* count) {
   ++count->snapshots;
-  for (const VoxelIndex& v : map.voxels(Plane::kOccupied, box)) {
+  const VoxelBox inside = box.intersection(map.window());
+  for (const VoxelIndex& v : map.voxels(Plane::kOccupied, inside)) {
     compareVoxel(map.lattice().centerOf(v), map.lattice().resolution(), scene, time, count);
   }
   surface.forEach([&](const Eigen::Vector3d& point_W, int scans) {
     const VoxelIndex v = map.lattice().indexOf(point_W);
-    if (!box.contains(v)) return;
+    if (!inside.contains(v)) return;
     const bool found = isOccupiedNear(map, v);
     ++count->seen;
     if (found) ++count->seen_found;

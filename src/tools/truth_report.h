@@ -35,7 +35,7 @@ struct TruthCount {
   }
 };
 
-/// Adds one moment: the voxels of a box around the sensor.
+/// Adds one moment: the voxels of a box around the sensor, as far as they are in the map's window.
 /// \param time of the scene, s.
 void compareWithScene(const Snapshot& map, const ExactScene& scene, const SeenSurface& surface,
                       const VoxelBox& box, double time, TruthCount* count);
