@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "fiimap/kernels.h"
 #include "fiimap/mapper_config.h"
 #include "fiimap/range_data.h"
 
@@ -36,7 +38,7 @@ struct DepthImage {
 /// Not thread-safe (keeps scratch memory).
 class DepthProjector {
  public:
-  explicit DepthProjector(const MapperConfig& config) : config_(config) {}
+  explicit DepthProjector(const MapperConfig& config);
 
   /// Fills `scan` anew with the image's rays.
   /// \param T_W_C camera (optical frame: z forward, x right, y down) to world.
@@ -47,14 +49,30 @@ class DepthProjector {
   Eigen::Vector2i pixelStep(const PinholeIntrinsics& intrinsics) const;
 
  private:
-  template <typename Pixel>
-  ReadingCount projectPixels(const DepthImage& image, const Eigen::Vector2i& step, RangeData* scan);
-  void addReading(float depth, const Eigen::Vector3f& ray, RangeData* scan,
-                  ReadingCount* count) const;
+  /// Rays at unit depth, one array per world axis, and the square of their length.
+  struct RayParts {
+    int size = 0;
+    std::vector<float> x, y, z, length_2;  // with room for a vector more
+    void resize(int new_size);
+    void set(int i, const Eigen::Vector3d& ray, double length_2_part);
+  };
+  /// In single precision.
+  struct Limits {
+    float min_depth, max_depth, min_length, max_length;
+  };
+
+  ReadingCount projectRows(const DepthImage& image, const Eigen::Vector2i& step, RangeData* scan);
+  void readDepths(const DepthImage& image, int v, int step);
+  void addOther(float depth, const Eigen::Vector3f& ray, RangeData* scan,
+                ReadingCount* count) const;
 
   MapperConfig config_;
-  std::vector<Eigen::Vector3f> ray_of_u_;  // direction in world axes at unit depth: sum of the two
-  std::vector<Eigen::Vector3f> ray_of_v_;
+  Limits limits_;
+  const Kernels& kernels_;
+  // The ray of pixel (u, v) is the sum of a part of u and one of v; by number of the sample.
+  RayParts ray_of_u_, ray_of_v_;
+  std::vector<float> depths_;         // of a row
+  std::vector<std::int32_t> others_;  // samples of a row that are no returns
 };
 
 }  // namespace fiimap

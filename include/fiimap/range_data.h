@@ -7,6 +7,59 @@
 
 namespace fiimap {
 
+/// Points as one array per coordinate, which is what vector instructions read and write. Keeps its
+/// memory when it shrinks.
+class PointList {
+ public:
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Eigen::Vector3f operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
+  /// Reads points one by one, for range-based for loops.
+  class Iterator {
+   public:
+    Iterator(const PointList& list, std::size_t i) : list_(list), i_(i) {}
+    Eigen::Vector3f operator*() const { return list_[i_]; }
+    Iterator& operator++() { return ++i_, *this; }
+    bool operator!=(const Iterator& other) const { return i_ != other.i_; }
+
+   private:
+    const PointList& list_;
+    std::size_t i_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
+
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+  float* x() { return x_.data(); }
+  float* y() { return y_.data(); }
+  float* z() { return z_.data(); }
+
+  void clear() { size_ = 0; }
+  /// Changes the size; new points hold anything.
+  void resize(std::size_t size) {
+    if (size > x_.size()) {
+      for (auto* axis : {&x_, &y_, &z_}) axis->resize(size);
+    }
+    size_ = size;
+  }
+  void push_back(const Eigen::Vector3f& point) {
+    if (size_ == x_.size()) {
+      for (auto* axis : {&x_, &y_, &z_}) axis->resize(2 * size_ + 1);
+    }
+    x_[size_] = point.x();
+    y_[size_] = point.y();
+    z_[size_] = point.z();
+    ++size_;
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<float> x_, y_, z_;  // as long as ever needed; the first size_ are points
+};
+
 /// One scan in the world frame, whatever sensor it came from.
 /// End points are offsets from the origin (metres, world axes), so that single precision suffices
 /// however far the vehicle is from the world's origin.
@@ -14,9 +67,9 @@ struct RangeData {
   /// Position of the sensor in the world, metres.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   /// Where rays met a surface.
-  std::vector<Eigen::Vector3f> returns;
+  PointList returns;
   /// Where rays that met nothing were cut off: free space up to and including this point.
-  std::vector<Eigen::Vector3f> misses;
+  PointList misses;
 
   void clear() {
     returns.clear();

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "fiimap/kernels.h"
 #include "fiimap/range_data.h"
 #include "fiimap/scan_mask.h"
 
@@ -24,6 +26,9 @@ struct RayCount {
 ///   `end_cut` voxel edges before it.
 /// A voxel may be both hit and free; who reads the mask lets the hit win.
 ///
+/// Coordinates are single precision, in voxel edges from the box's corner: exact to 1e-4 voxel
+/// edges in a box of 1000 voxels a side.
+///
 /// Rays that end in one column share their walk over columns, and rays that end in a run of
 /// neighbouring voxels of it pass each column in one run of voxels: this is what makes it fast.
 /// Not thread-safe (keeps scratch memory).
@@ -36,25 +41,29 @@ class RayCaster {
   RayCount cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask);
 
  private:
-  /// A column on the way to an end column; the ray is in it from the end of the last one (t = 0 at
-  /// the origin) until t_out (t = 1 at the end).
-  struct Crossing {
-    int x, y;
-    double t_in, t_out;
+  /// Rays to the voxels z_low..z_high (inclusive) of one column.
+  struct Fan {
+    int z_low, z_high;
+    float cut;         // voxel edges before the end
+    float distance_2;  // horizontal distance of the end column, squared
   };
 
-  void markEnds(const RangeData& scan, ScanMask* mask, RayCount* count);
-  void markEnd(const Eigen::Vector3d& end, bool is_return, ScanMask* mask, RayCount* count);
-  void walkTo(int x, int y, const ScanMask& mask);
+  void markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count);
+  void markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* mask, RayCount* count);
+  static void markEndBit(int offset, int bit, bool is_return, ScanMask* mask, RayCount* count);
+  void walkTo(int end_x, int end_y, ScanMask* mask);
   void carve(int end_x, int end_y, ScanMask* mask) const;
-  void carveFan(int z_low, int z_high, double cut, int end_x, int end_y, ScanMask* mask) const;
-  double endOfRay(int end_x, int end_y, int z, double cut) const;
+  void carveFan(const Fan& fan, ScanMask* mask) const;
+  void carveTogether(const Fan& fan, int columns, ScanMask* mask) const;
+  void carveApart(const Fan& fan, int first, ScanMask* mask) const;
+  float endOfRay(const Fan& fan, int z) const;
 
   VoxelLattice lattice_;
-  double end_cut_;
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of the scan, in voxels relative to the box
-  std::vector<Eigen::Vector2i> end_columns_;
-  std::vector<Crossing> walk_;
+  float end_cut_;
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();  // of the scan, in voxels relative to the box
+  RayEnds ends_;
+  ColumnWalk walk_;
+  const Kernels& kernels_;
 };
 
 }  // namespace fiimap

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fiimap/change_set.h"
+#include "fiimap/kernels.h"
 #include "fiimap/log_odds.h"
 #include "fiimap/scan_mask.h"
 #include "fiimap/sliding_grid.h"
@@ -15,17 +16,22 @@ namespace fiimap {
 /// Not thread-safe.
 class ScanIntegrator {
  public:
-  explicit ScanIntegrator(const LogOdds& log_odds) : log_odds_(log_odds) {}
+  explicit ScanIntegrator(const LogOdds& log_odds) : log_odds_(log_odds), kernels_(kernels()) {}
 
   /// Updates known, occupied and log-odds from `mask`, whose box must lie in the grid's window.
   /// Appends to changes->lower and changes->raise. The inflated plane is left to the Inflater.
   void apply(const ScanMask& mask, SlidingGrid* grid, ChangeSet* changes);
 
  private:
-  void applyColumn(const ScanMask& mask, int x, int y, SlidingGrid* grid, ChangeSet* changes);
+  void applyRow(const ScanMask& mask, int x, int y, int columns, SlidingGrid* grid,
+                ChangeSet* changes);
+  void listFlips(int x, int y, const std::uint64_t* occupied_before, int words,
+                 const SlidingGrid& grid, ChangeSet* changes) const;
 
   LogOdds log_odds_;
-  std::vector<std::uint64_t> hit_, free_, known_, occupied_;  // one column each, ring layout
+  const Kernels& kernels_;
+  // Columns of one row in a tile, in ring layout.
+  std::vector<std::uint64_t> hit_, free_, known_, occupied_;
 };
 
 }  // namespace fiimap

@@ -24,12 +24,14 @@ class ScanMask {
   const VoxelBox& box() const { return box_; }
   const VoxelIndex& size() const { return size_; }
   int wordsPerColumn() const { return words_; }
+  /// Where the words of a column begin within a layer.
+  std::int32_t columnOffset(int x, int y) const { return (x * size_.y() + y) * words_; }
 
   std::uint64_t* column(Layer layer, int x, int y) {
-    return bits_[layer].data() + columnIndex(x, y) * words_;
+    return bits_[layer].data() + columnOffset(x, y);
   }
   const std::uint64_t* column(Layer layer, int x, int y) const {
-    return bits_[layer].data() + columnIndex(x, y) * words_;
+    return bits_[layer].data() + columnOffset(x, y);
   }
   bool test(Layer layer, const VoxelIndex& v) const {
     return (column(layer, v.x(), v.y())[v.z() / kWordBits] >> (v.z() % kWordBits)) & 1u;
@@ -40,10 +42,20 @@ class ScanMask {
     return std::any_of(words, words + words_, [](std::uint64_t word) { return word != 0; });
   }
   void mark(Layer layer, const VoxelIndex& v) {
-    column(layer, v.x(), v.y())[v.z() / kWordBits] |= std::uint64_t{1} << (v.z() % kWordBits);
+    const int word = v.z() / kWordBits;
+    if (layer != kFree) {
+      markEnd(layer, columnOffset(v.x(), v.y()) + word, v.z() % kWordBits);
+    } else {
+      column(layer, v.x(), v.y())[word] |= std::uint64_t{1} << (v.z() % kWordBits);
+    }
   }
-  /// Sets the bits z_low..z_high (inclusive, clipped to the box) of the free layer.
-  void markFreeRun(int x, int y, int z_low, int z_high);
+  /// Marks a voxel of the layers of ends, given the offset of its word and its bit therein.
+  /// \return whether it was not marked before.
+  bool markEnd(Layer layer, std::int32_t word_offset, int bit);
+  /// Offsets of the columns that hold marks of the layers of ends, each once.
+  const std::vector<std::int32_t>& endColumns() const { return end_columns_; }
+  /// Sets the bits z_low..z_high (inclusive, clipped to the box) of a column of the free layer.
+  void markFreeRun(std::int32_t column_offset, int z_low, int z_high);
 
   /// Grows the part of the box that may hold bits; every mark must lie in it.
   void touch(int x, int y);
@@ -55,33 +67,25 @@ class ScanMask {
   }
 
  private:
-  std::size_t columnIndex(int x, int y) const {
-    return static_cast<std::size_t>(x) * size_.y() + y;
-  }
-
   VoxelBox box_;
   VoxelIndex size_ = VoxelIndex::Zero();
   VoxelBox touched_;
   int words_ = 0;
   std::vector<std::uint64_t> bits_[kLayerCount];
+  std::vector<std::int32_t> end_columns_;
 };
 
-inline void ScanMask::markFreeRun(int x, int y, int z_low, int z_high) {
-  z_low = std::max(z_low, 0);
-  z_high = std::min(z_high, size_.z() - 1);
-  if (z_low > z_high) return;
-  std::uint64_t* words = column(kFree, x, y);
-  const int first = z_low / kWordBits;
-  const int last = z_high / kWordBits;
-  const std::uint64_t from_low = ~std::uint64_t{0} << (z_low % kWordBits);
-  const std::uint64_t to_high = ~std::uint64_t{0} >> (kWordBits - 1 - z_high % kWordBits);
-  if (first == last) {
-    words[first] |= from_low & to_high;
-    return;
-  }
-  words[first] |= from_low;
-  for (int w = first + 1; w < last; ++w) words[w] = ~std::uint64_t{0};
-  words[last] |= to_high;
+inline bool ScanMask::markEnd(Layer layer, std::int32_t word_offset, int bit) {
+  const std::uint64_t mark = std::uint64_t{1} << bit;
+  if ((bits_[layer][word_offset] & mark) != 0) return false;
+  const std::int32_t column = word_offset - word_offset % words_;
+  const auto is_zero = [&](Layer l) {
+    return std::all_of(&bits_[l][column], &bits_[l][column] + words_,
+                       [](std::uint64_t word) { return word == 0; });
+  };
+  if (is_zero(kHit) && is_zero(kMissEnd)) end_columns_.push_back(column);
+  bits_[layer][word_offset] |= mark;
+  return true;
 }
 
 }  // namespace fiimap

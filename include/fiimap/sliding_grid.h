@@ -120,11 +120,16 @@ class SlidingGrid {
   /// Sets one bit. Voxels outside the window are ignored.
   void set(Plane plane, const VoxelIndex& v, bool value);
 
-  /// Words of a column, layout().words() of them; all zero where nothing was ever written.
+  /// Words of a column, layout().words() of them; all zero where nothing was ever written. Those of
+  /// the columns after it along y follow, to the end of its tile, once something was.
   const std::uint64_t* column(Plane plane, int x, int y) const;
   /// Replaces a column's words. Writing what is there already costs no copy.
   /// \param words bits outside the window must be zero.
-  void writeColumn(Plane plane, int x, int y, const std::uint64_t* words);
+  void writeColumn(Plane plane, int x, int y, const std::uint64_t* words) {
+    writeColumns(plane, x, y, 1, words);
+  }
+  /// The same for the columns (x, y), (x, y + 1), ..., which must lie in one tile.
+  void writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words);
   /// Log-odds of a column, one byte per bit of the ring; meaningful where the voxel is known.
   /// Allocates; the pointer holds until the window moves.
   std::int8_t* logOdds(int x, int y);

@@ -14,32 +14,31 @@ constexpr double kRelativeSlack = 1e-9;
 /// Larger than any image, and sums with pixel coordinates do not overflow.
 constexpr double kMaxStep = 1 << 20;
 
-/// A pixel of a row; rows need not be aligned.
-template <typename Value>
-Value loadPixel(const std::uint8_t* row, int u) {
-  Value value;
-  std::memcpy(&value, row + u * sizeof(Value), sizeof(Value));
-  return value;
+/// Samples of an axis of `size` pixels that is sampled from `margin` to `size - margin`.
+int sampleCount(int size, int margin, int step) {
+  const int last = size - margin - 1;
+  return last < margin ? 0 : (last - margin) / step + 1;
 }
 
-/// What a pixel says: a depth in metres, NaN for "invalid", or infinity.
-struct Uint16Pixel {
-  using Type = std::uint16_t;
-  static float depth(Type value, float scale) {
-    // 65535 is what drivers write for "saturated": no distance was measured.
-    const bool valid = value != 0 && value != std::numeric_limits<Type>::max();
-    return valid ? static_cast<float>(value) * scale : std::numeric_limits<float>::quiet_NaN();
-  }
-};
-
-struct Float32Pixel {
-  using Type = float;
-  static float depth(Type value, float /*scale*/) {
-    return value > 0.0f ? value : std::numeric_limits<float>::quiet_NaN();
-  }
-};
-
 }  // namespace
+
+DepthProjector::DepthProjector(const MapperConfig& config)
+    : config_(config),
+      limits_{static_cast<float>(config.min_depth), static_cast<float>(config.max_depth),
+              static_cast<float>(config.min_ray_length), static_cast<float>(config.max_ray_length)},
+      kernels_(kernels()) {}
+
+void DepthProjector::RayParts::resize(int new_size) {
+  size = new_size;
+  for (auto* part : {&x, &y, &z, &length_2}) part->resize(size + kVectorRoom);
+}
+
+void DepthProjector::RayParts::set(int i, const Eigen::Vector3d& ray, double length_2_part) {
+  x[i] = static_cast<float>(ray.x());
+  y[i] = static_cast<float>(ray.y());
+  z[i] = static_cast<float>(ray.z());
+  length_2[i] = static_cast<float>(length_2_part);
+}
 
 bool PinholeIntrinsics::valid() const {
   return std::isfinite(fx) && std::isfinite(fy) && std::isfinite(cx) && std::isfinite(cy) &&
@@ -58,67 +57,106 @@ ReadingCount DepthProjector::project(const DepthImage& image, const PinholeIntri
   scan->clear();
   scan->origin = T_W_C.translation();
 
-  // The ray of pixel (u, v) at unit depth, in world axes, is the sum of a part of u and one of v.
-  const Eigen::Matrix3d R_W_C = T_W_C.linear();
-  ray_of_u_.resize(image.width);
-  for (int u = 0; u < image.width; ++u) {
-    ray_of_u_[u] = (R_W_C.col(0) * ((u - intrinsics.cx) / intrinsics.fx)).cast<float>();
-  }
-  ray_of_v_.resize(image.height);
-  for (int v = 0; v < image.height; ++v) {
-    const Eigen::Vector3d ray = R_W_C.col(1) * ((v - intrinsics.cy) / intrinsics.fy);
-    ray_of_v_[v] = (ray + R_W_C.col(2)).cast<float>();
-  }
-
   const Eigen::Vector2i step = pixelStep(intrinsics);
-  return image.format == DepthImage::Format::kUint16
-             ? projectPixels<Uint16Pixel>(image, step, scan)
-             : projectPixels<Float32Pixel>(image, step, scan);
+  const Eigen::Matrix3d R_W_C = T_W_C.linear();
+  const int margin = config_.border_margin;
+  ray_of_u_.resize(sampleCount(image.width, margin, step.x()));
+  for (int i = 0; i < ray_of_u_.size; ++i) {
+    const double u = margin + static_cast<double>(i) * step.x();
+    const double slope = (u - intrinsics.cx) / intrinsics.fx;
+    ray_of_u_.set(i, R_W_C.col(0) * slope, slope * slope);
+  }
+  ray_of_v_.resize(sampleCount(image.height, margin, step.y()));
+  for (int i = 0; i < ray_of_v_.size; ++i) {
+    const double v = margin + static_cast<double>(i) * step.y();
+    const double slope = (v - intrinsics.cy) / intrinsics.fy;
+    ray_of_v_.set(i, R_W_C.col(1) * slope + R_W_C.col(2), slope * slope + 1.0);
+  }
+  return projectRows(image, step, scan);
 }
 
-template <typename Pixel>
-ReadingCount DepthProjector::projectPixels(const DepthImage& image, const Eigen::Vector2i& step,
-                                           RangeData* scan) {
-  const float scale = static_cast<float>(config_.depth_scale);
+ReadingCount DepthProjector::projectRows(const DepthImage& image, const Eigen::Vector2i& step,
+                                         RangeData* scan) {
+  const int samples = ray_of_u_.size;
+  depths_.resize(samples + kVectorRoom);
+  others_.resize(samples + kVectorRoom);
+  const bool list_invalid = config_.invalid_depth == ReadingPolicy::kFree;
+  DepthRow row;
+  row.depth = depths_.data();
+  row.samples = samples;
+  row.ray_x = ray_of_u_.x.data();
+  row.ray_y = ray_of_u_.y.data();
+  row.ray_z = ray_of_u_.z.data();
+  row.length_2 = ray_of_u_.length_2.data();
+  row.min_depth = limits_.min_depth;
+  row.max_depth = limits_.max_depth;
+  row.min_length_2 = limits_.min_length * limits_.min_length;
+  row.max_length_2 = limits_.max_length * limits_.max_length;
+
   ReadingCount count;
-  for (int v = config_.border_margin; v < image.height - config_.border_margin; v += step.y()) {
-    const auto* row = static_cast<const std::uint8_t*>(image.data) + v * image.row_bytes;
-    for (int u = config_.border_margin; u < image.width - config_.border_margin; u += step.x()) {
-      const float depth = Pixel::depth(loadPixel<typename Pixel::Type>(row, u), scale);
-      addReading(depth, ray_of_u_[u] + ray_of_v_[v], scan, &count);
+  PointList& returns = scan->returns;
+  for (int i = 0; i < ray_of_v_.size; ++i) {
+    readDepths(image, config_.border_margin + i * step.y(), step.x());
+    row.row_x = ray_of_v_.x[i];
+    row.row_y = ray_of_v_.y[i];
+    row.row_z = ray_of_v_.z[i];
+    row.row_length_2 = ray_of_v_.length_2[i];
+
+    const std::size_t first = returns.size();
+    returns.resize(first + samples + kVectorRoom);
+    const RowCount split =
+        kernels_.projectRow(row, list_invalid, returns.x() + first, returns.y() + first,
+                            returns.z() + first, others_.data());
+    returns.resize(first + split.returns);
+    count.total += samples;
+    count.returns += split.returns;
+    if (!list_invalid) count.invalid += samples - split.returns - split.others;
+    for (int k = 0; k < split.others; ++k) {
+      const int j = others_[k];
+      const Eigen::Vector3f ray(row.ray_x[j] + row.row_x, row.ray_y[j] + row.row_y,
+                                row.ray_z[j] + row.row_z);
+      addOther(depths_[j], ray, scan, &count);
     }
   }
   return count;
 }
 
-void DepthProjector::addReading(float depth, const Eigen::Vector3f& ray, RangeData* scan,
-                                ReadingCount* count) const {
-  ++count->total;
-  const float max_depth = static_cast<float>(config_.max_depth);
-  const float max_length = static_cast<float>(config_.max_ray_length);
+/// Fills depths_ with the samples of row v, NaN where no distance was measured.
+void DepthProjector::readDepths(const DepthImage& image, int v, int step) {
+  const int samples = ray_of_u_.size;
+  const auto* const row = static_cast<const std::uint8_t*>(image.data) + v * image.row_bytes;
+  if (image.format == DepthImage::Format::kUint16) {
+    kernels_.readDepths(row + config_.border_margin * sizeof(std::uint16_t), step, samples,
+                        static_cast<float>(config_.depth_scale), depths_.data());
+    return;
+  }
+  for (int i = 0; i < samples; ++i) {
+    float depth;  // rows need not be aligned
+    std::memcpy(&depth, row + (config_.border_margin + i * step) * sizeof(depth), sizeof(depth));
+    depths_[i] = depth > 0.0f ? depth : std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+/// A reading that is no return.
+void DepthProjector::addOther(float depth, const Eigen::Vector3f& ray, RangeData* scan,
+                              ReadingCount* count) const {
   ReadingPolicy policy = config_.beyond_max_depth;
+  const float ray_length = ray.norm();
   if (std::isnan(depth)) {
     ++count->invalid;
     policy = config_.invalid_depth;
   } else if (std::isinf(depth)) {
     ++count->infinite;
     policy = config_.infinite_depth;
+  } else if (depth <= limits_.max_depth && depth * ray_length <= limits_.max_length) {
+    ++count->too_near;
+    return;
   } else {
-    const float length = depth * ray.norm();
-    if (depth < static_cast<float>(config_.min_depth) ||
-        length < static_cast<float>(config_.min_ray_length)) {
-      ++count->too_near;
-      return;
-    }
-    if (depth <= max_depth && length <= max_length) {
-      ++count->returns;
-      scan->returns.push_back(ray * depth);
-      return;
-    }
     ++count->too_far;
   }
   if (policy == ReadingPolicy::kFree) {
-    scan->misses.push_back(ray * std::min(max_depth, max_length / ray.norm()));
+    const float depth_at_max_length = limits_.max_length / ray_length;
+    scan->misses.push_back(ray * std::min(limits_.max_depth, depth_at_max_length));
   }
 }
 

@@ -24,6 +24,24 @@ void requireLess(const std::string& low_name, double low, const std::string& hig
          high_name + " = " + std::to_string(high));
 }
 
+Parameter connectivityParameter(int* field) {
+  const std::string name = "bfs_connectivity";
+  const std::string allowed = "6, 18 or 26";
+  return {name,
+          "",
+          allowed,
+          "neighbours visited by the method bfs",
+          [field] { return std::to_string(*field); },
+          [=](const std::string& text) {
+            for (const int connectivity : {6, 18, 26}) {
+              if (text != std::to_string(connectivity)) continue;
+              *field = connectivity;
+              return;
+            }
+            refuse("parameter " + name + " = '" + text + "': must be " + allowed);
+          }};
+}
+
 }  // namespace
 
 std::vector<Parameter> mapperParameters(MapperConfig* c) {
@@ -98,8 +116,7 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
                       "shape of the structuring element"),
       choiceParameter("inflation_method", &c->inflation_method, {"incremental", "bfs", "batch"},
                       "how the inflated layer is kept; all give the same result"),
-      integerParameter("bfs_connectivity", &c->bfs_connectivity, 6, 26, "",
-                       "6, 18 or 26: neighbours visited by the method bfs"),
+      connectivityParameter(&c->bfs_connectivity),
 
       flagParameter("virtual_walls", &c->virtual_walls,
                     "whether queries treat everything below virtual_floor and above "
@@ -122,9 +139,11 @@ void MapperConfig::validate() const {
   if (virtual_walls) {
     requireLess("virtual_floor", virtual_floor, "virtual_ceiling", virtual_ceiling);
   }
-  if (bfs_connectivity != 6 && bfs_connectivity != 18 && bfs_connectivity != 26) {
-    refuse("parameter bfs_connectivity = " + std::to_string(bfs_connectivity) +
-           ": must be 6, 18 or 26");
+  const double max_slide = mapSize().minCoeff() / 2.0;
+  if (map_mode == MapMode::kSliding && slide_distance > max_slide) {
+    refuse("parameter slide_distance = " + std::to_string(slide_distance) + ": must be in [0, " +
+           std::to_string(max_slide) +
+           "] m, half of the smallest of map_size_x/y/z, or the vehicle would leave the window");
   }
   if (inflation_radius / resolution > kMaxReach) {
     refuse("parameter inflation_radius = " + std::to_string(inflation_radius) +

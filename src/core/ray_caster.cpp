@@ -2,178 +2,233 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace fiimap {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Part [enter, exit] of the ray origin + t * direction, t in [0, 1], that lies in [0, size].
 struct Span {
-  double enter = 0.0;
-  double exit = 1.0;
+  float enter = 0.0f;
+  float exit = 1.0f;
   bool empty() const { return enter > exit; }
 };
 
-void clipToSlab(double origin, double direction, double size, Span* span) {
-  if (direction == 0.0) {
-    if (origin < 0.0 || origin > size) *span = {1.0, 0.0};
+void clipToSlab(float origin, float direction, float size, Span* span) {
+  if (direction == 0.0f) {
+    if (origin < 0.0f || origin > size) *span = {1.0f, 0.0f};
     return;
   }
-  const double t_low = -origin / direction;
-  const double t_high = (size - origin) / direction;
+  const float t_low = -origin / direction;
+  const float t_high = (size - origin) / direction;
   span->enter = std::max(span->enter, std::min(t_low, t_high));
   span->exit = std::min(span->exit, std::max(t_low, t_high));
 }
 
 /// Voxel of the box that holds a point on the box's surface, or just off it by rounding.
-VoxelIndex nearestVoxel(const Eigen::Vector3d& p, const VoxelIndex& size) {
+VoxelIndex nearestVoxel(const Eigen::Vector3f& p, const VoxelIndex& size) {
   const VoxelIndex v = p.array().floor().cast<int>();
   return v.cwiseMax(0).cwiseMin(size - VoxelIndex::Ones());
 }
 
 /// Part of a ray that lies in the box [0, size].
-Span clipToBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, const VoxelIndex& size) {
+Span clipToBox(const Eigen::Vector3f& origin, const Eigen::Vector3f& ray, const VoxelIndex& size) {
   Span span;
-  for (int axis = 0; axis < 3; ++axis) clipToSlab(origin[axis], ray[axis], size[axis], &span);
+  for (int axis = 0; axis < 3; ++axis) {
+    clipToSlab(origin[axis], ray[axis], static_cast<float>(size[axis]), &span);
+  }
   return span;
 }
 
-/// Without SSE4.1, std::floor is a function call, and this is called at every column of a ray.
-int floorToInt(double value) {
+/// Without SSE4.1, std::floor is a function call.
+int floorToInt(float value) {
   const int truncated = static_cast<int>(value);
-  return truncated - (value < truncated ? 1 : 0);
+  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
+
+int ceilToInt(float value) { return -floorToInt(-value); }
 
 }  // namespace
 
 RayCaster::RayCaster(const VoxelLattice& lattice, double end_cut)
-    : lattice_(lattice), end_cut_(end_cut) {}
+    : lattice_(lattice), end_cut_(static_cast<float>(end_cut)), kernels_(kernels()) {}
 
 RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask) {
   mask->begin(box);
   RayCount count;
   if (box.empty()) return count;
+  const VoxelIndex& size = mask->size();
 
   // Relative to the box, so that coordinates are small wherever the vehicle is.
-  origin_ = scan.origin / lattice_.resolution() - box.min.cast<double>();
-  end_columns_.clear();
-  markEnds(scan, mask, &count);
-  for (const Eigen::Vector2i& column : end_columns_) {
-    walkTo(column.x(), column.y(), *mask);
-    mask->touch(walk_.front().x, walk_.front().y);
-    mask->touch(walk_.back().x, walk_.back().y);
-    carve(column.x(), column.y(), mask);
+  origin_ = (scan.origin / lattice_.resolution() - box.min.cast<double>()).cast<float>();
+  markEnds(scan.returns, true, mask, &count);
+  markEnds(scan.misses, false, mask, &count);
+  for (const std::int32_t offset : mask->endColumns()) {
+    const int column = offset / mask->wordsPerColumn();
+    const int x = column / size.y();
+    const int y = column % size.y();
+    walkTo(x, y, mask);
+    carve(x, y, mask);
   }
   return count;
 }
 
-void RayCaster::markEnds(const RangeData& scan, ScanMask* mask, RayCount* count) {
-  const double to_voxels = 1.0 / lattice_.resolution();
-  for (const Eigen::Vector3f& end : scan.returns) {
-    markEnd(end.cast<double>() * to_voxels, true, mask, count);
+void RayCaster::markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count) {
+  const float to_voxels = static_cast<float>(1.0 / lattice_.resolution());
+  const Eigen::Array3f size = mask->size().cast<float>();
+  if ((origin_.array() < 0.0f).any() || (origin_.array() > size).any()) {
+    // Rays that enter the box on their way are too rare for a kernel.
+    for (const Eigen::Vector3f& end : ends) markEnd(end * to_voxels, are_returns, mask, count);
+    return;
   }
-  for (const Eigen::Vector3f& end : scan.misses) {
-    markEnd(end.cast<double>() * to_voxels, false, mask, count);
+  EndPoints points;
+  points.x = ends.x();
+  points.y = ends.y();
+  points.z = ends.z();
+  points.count = static_cast<int>(ends.size());
+  points.to_voxels = to_voxels;
+  points.words = mask->wordsPerColumn();
+  for (int axis = 0; axis < 3; ++axis) {
+    points.origin[axis] = origin_[axis];
+    points.size[axis] = mask->size()[axis];
+  }
+  kernels_.listEnds(points, &ends_);
+  for (int k = 0; k < ends_.size; ++k) {
+    const bool is_return = are_returns && ends_.bit[k] < RayEnds::kLeavesBox;
+    markEndBit(ends_.offset[k], ends_.bit[k] % kWordBits, is_return, mask, count);
   }
 }
 
-void RayCaster::markEnd(const Eigen::Vector3d& ray, bool is_return, ScanMask* mask,
+/// Of a sensor anywhere.
+void RayCaster::markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* mask,
                         RayCount* count) {
   const VoxelIndex& size = mask->size();
-  const Eigen::Vector3d end = origin_ + ray;
+  const Eigen::Vector3f end = origin_ + ray;
   VoxelIndex v = end.cast<int>();  // the floor, inside the box
-  if (!((end.array() >= 0.0).all() && (end.array() < size.cast<double>().array()).all())) {
+  if (!((end.array() >= 0.0f).all() && (end.array() < size.cast<float>().array()).all())) {
     const Span span = clipToBox(origin_, ray, size);
     if (span.empty()) return;
     v = nearestVoxel(origin_ + span.exit * ray, size);
     is_return = false;
   }
-  const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
-  if (mask->test(layer, v)) return;
-  if (!mask->any(ScanMask::kHit, v.x(), v.y()) && !mask->any(ScanMask::kMissEnd, v.x(), v.y())) {
-    end_columns_.emplace_back(v.x(), v.y());
-  }
-  mask->mark(layer, v);
-  ++(is_return ? count->hits : count->misses);
+  const int offset = mask->columnOffset(v.x(), v.y()) + v.z() / kWordBits;
+  markEndBit(offset, v.z() % kWordBits, is_return, mask, count);
 }
 
-void RayCaster::walkTo(int end_x, int end_y, const ScanMask& mask) {
-  walk_.clear();
-  const Eigen::Vector2d end(end_x + 0.5, end_y + 0.5);
-  const Eigen::Vector2d direction = end - origin_.head<2>();
+void RayCaster::markEndBit(int offset, int bit, bool is_return, ScanMask* mask, RayCount* count) {
+  const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
+  if (mask->markEnd(layer, offset, bit)) ++(is_return ? count->hits : count->misses);
+}
+
+/// The line of the rays to an end column over the columns of the mask.
+void RayCaster::walkTo(int end_x, int end_y, ScanMask* mask) {
+  const int end[2] = {end_x, end_y};
+  const float direction[2] = {end_x + 0.5f - origin_.x(), end_y + 0.5f - origin_.y()};
+  const int offset[2] = {mask->columnOffset(1, 0), mask->columnOffset(0, 1)};
+  const int major = std::abs(direction[0]) >= std::abs(direction[1]) ? 0 : 1;
+  const int minor = 1 - major;
   Span span;
   for (int axis = 0; axis < 2; ++axis) {
-    clipToSlab(origin_[axis], direction[axis], mask.size()[axis], &span);
-  }
-  const Eigen::Vector2d start = origin_.head<2>() + span.enter * direction;
-
-  int cell[2], step[2], steps_left[2];
-  double t_next[2], t_delta[2];
-  const int end_cell[2] = {end_x, end_y};
-  for (int axis = 0; axis < 2; ++axis) {
-    cell[axis] = std::clamp(floorToInt(start[axis]), 0, mask.size()[axis] - 1);
-    step[axis] = end_cell[axis] > cell[axis] ? 1 : -1;
-    steps_left[axis] = std::abs(end_cell[axis] - cell[axis]);
-    const double boundary = cell[axis] + (step[axis] > 0 ? 1.0 : 0.0);
-    const bool crosses = steps_left[axis] > 0;
-    t_next[axis] = crosses ? (boundary - origin_[axis]) / direction[axis] : kInfinity;
-    t_delta[axis] = crosses ? step[axis] / direction[axis] : kInfinity;
+    clipToSlab(origin_[axis], direction[axis], static_cast<float>(mask->size()[axis]), &span);
   }
 
-  double t = span.enter;
-  while (steps_left[0] + steps_left[1] > 0) {
-    const int axis = t_next[0] < t_next[1] ? 0 : 1;
-    const double t_out = std::clamp(t_next[axis], t, 1.0);
-    walk_.push_back({cell[0], cell[1], t, t_out});
-    t = t_out;
-    cell[axis] += step[axis];
-    t_next[axis] = --steps_left[axis] > 0 ? t_next[axis] + t_delta[axis] : kInfinity;
-  }
-  walk_.push_back({cell[0], cell[1], t, 1.0});
+  ColumnLine line;
+  line.start_t = std::min(span.enter, 1.0f);
+  const int start = std::clamp(floorToInt(origin_[major] + direction[major] * line.start_t), 0,
+                               mask->size()[major] - 1);
+  const int step = end[major] >= start ? 1 : -1;
+  line.slabs = std::abs(end[major] - start) + 1;
+  line.first_border = static_cast<float>(start + (step > 0 ? 0 : 1)) - origin_[major];
+  line.major_step = static_cast<float>(step);
+  line.t_per_major = line.slabs > 1 ? 1.0f / direction[major] : 0.0f;
+  line.minor_origin = origin_[minor];
+  line.minor_direction = direction[minor];
+  line.minor_step = direction[minor] > 0.0f ? 1 : -1;
+  line.minor_border = (line.minor_step > 0 ? 1.0f : 0.0f) - origin_[minor];
+  line.t_per_minor = direction[minor] != 0.0f ? 1.0f / direction[minor] : 0.0f;
+  line.last_minor_cell = mask->size()[minor] - 1;
+  line.first_column = start * offset[major];
+  line.major_offset = step * offset[major];
+  line.minor_offset = offset[minor];
+  kernels_.walk(line, &walk_);
+
+  mask->touch(end_x, end_y);
+  const int first = walk_.column[0] / mask->wordsPerColumn();
+  mask->touch(first / mask->size().y(), first % mask->size().y());
 }
 
 void RayCaster::carve(int end_x, int end_y, ScanMask* mask) const {
+  const float distance_2 =
+      (Eigen::Vector2f(end_x + 0.5f, end_y + 0.5f) - origin_.head<2>()).squaredNorm();
   for (const ScanMask::Layer layer : {ScanMask::kHit, ScanMask::kMissEnd}) {
-    const double cut = layer == ScanMask::kHit ? end_cut_ : 0.0;
+    const float cut = layer == ScanMask::kHit ? end_cut_ : 0.0f;
     forEachRun(mask->column(layer, end_x, end_y), mask->wordsPerColumn(),
-               [&](int z_low, int z_high) { carveFan(z_low, z_high, cut, end_x, end_y, mask); });
+               [&](int z_low, int z_high) {
+                 carveFan({z_low, z_high, cut, distance_2}, mask);
+               });
   }
 }
 
-void RayCaster::carveFan(int z_low, int z_high, double cut, int end_x, int end_y,
-                         ScanMask* mask) const {
+void RayCaster::carveFan(const Fan& fan, ScanMask* mask) const {
   // The shortest ray of the fan is cut off first; up to there all rays pass together.
-  const int z_nearest = std::clamp(floorToInt(origin_.z()), z_low, z_high);
-  const double t_together = endOfRay(end_x, end_y, z_nearest, cut);
-  const double rise_low = z_low + 0.5 - origin_.z();
-  const double rise_high = z_high + 0.5 - origin_.z();
+  const int z_nearest = std::clamp(floorToInt(origin_.z()), fan.z_low, fan.z_high);
+  const float t_together = endOfRay(fan, z_nearest);
+  int together = walk_.size;
+  while (together > 0 && walk_.t[together] > t_together) --together;
+  carveTogether(fan, together, mask);
+  if (together < walk_.size) carveApart(fan, together, mask);
+}
 
-  std::size_t i = 0;
-  for (; i < walk_.size() && walk_[i].t_out <= t_together; ++i) {
-    const Crossing& c = walk_[i];
-    const double lowest = origin_.z() + rise_low * (rise_low < 0.0 ? c.t_out : c.t_in);
-    const double highest = origin_.z() + rise_high * (rise_high < 0.0 ? c.t_in : c.t_out);
-    mask->markFreeRun(c.x, c.y, floorToInt(lowest), floorToInt(highest));
-  }
-  for (int z = z_low; z <= z_high; ++z) {
-    const double t_end = endOfRay(end_x, end_y, z, cut);
-    const double rise = z + 0.5 - origin_.z();
-    for (std::size_t j = i; j < walk_.size() && walk_[j].t_in <= t_end; ++j) {
-      const Crossing& c = walk_[j];
-      const double z_in = origin_.z() + rise * c.t_in;
-      const double z_out = origin_.z() + rise * std::min(c.t_out, t_end);
-      mask->markFreeRun(c.x, c.y, floorToInt(std::min(z_in, z_out)),
-                        floorToInt(std::max(z_in, z_out)));
+/// In each column all rays of the fan touch one run of voxels, from where the lowest ray is lowest
+/// to where the highest ray is highest.
+void RayCaster::carveTogether(const Fan& fan, int columns, ScanMask* mask) const {
+  FanPart part;
+  part.column = walk_.column.data();
+  part.columns = columns;
+  part.origin_z = origin_.z();
+  part.rise_low = fan.z_low + 0.5f - origin_.z();
+  part.rise_high = fan.z_high + 0.5f - origin_.z();
+  part.t_low = walk_.t.data() + (part.rise_low < 0.0f ? 1 : 0);
+  part.t_high = walk_.t.data() + (part.rise_high < 0.0f ? 0 : 1);
+  part.lowest = origin_.z() + std::min(0.0f, part.rise_low);
+  part.highest = origin_.z() + std::max(0.0f, part.rise_high);
+  kernels_.freeFan(part, mask->size().z(), mask->column(ScanMask::kFree, 0, 0));
+}
+
+/// Where some rays have ended already: those left are the longest, at the fan's upper and lower
+/// end. Neighbouring rays are at most a voxel apart, so that each of the two groups touches one
+/// run.
+void RayCaster::carveApart(const Fan& fan, int first, ScanMask* mask) const {
+  const float rise_low = fan.z_low + 0.5f - origin_.z();
+  const float rise_high = fan.z_high + 0.5f - origin_.z();
+  const float t_end_low = endOfRay(fan, fan.z_low);
+  const float t_end_high = endOfRay(fan, fan.z_high);
+  for (int k = first; k < walk_.size; ++k) {
+    const float t_in = walk_.t[k];
+    const float t_out = walk_.t[k + 1];
+    // A ray reaches t_in when its length is at least cut / (1 - t_in).
+    const float length = t_in < 1.0f ? fan.cut / (1.0f - t_in) : 0.0f;
+    const float rise_2 = length * length - fan.distance_2;
+    const float rise = rise_2 > 0.0f ? std::sqrt(rise_2) : 0.0f;
+    if (rise_high >= rise && t_in <= t_end_high) {
+      const int z = std::max(fan.z_low, ceilToInt(origin_.z() + rise - 0.5f));
+      const float lowest = origin_.z() + (z + 0.5f - origin_.z()) * t_in;
+      const float highest = origin_.z() + rise_high * std::min(t_out, t_end_high);
+      mask->markFreeRun(walk_.column[k], floorToInt(lowest), floorToInt(highest));
+    }
+    if (rise_low <= -rise && t_in <= t_end_low) {
+      const int z = std::min(fan.z_high, floorToInt(origin_.z() - rise - 0.5f));
+      const float lowest = origin_.z() + rise_low * std::min(t_out, t_end_low);
+      const float highest = origin_.z() + (z + 0.5f - origin_.z()) * t_in;
+      mask->markFreeRun(walk_.column[k], floorToInt(lowest), floorToInt(highest));
     }
   }
 }
 
-double RayCaster::endOfRay(int end_x, int end_y, int z, double cut) const {
-  const Eigen::Vector3d end(end_x + 0.5, end_y + 0.5, z + 0.5);
-  const double length = (end - origin_).norm();
-  return length > 0.0 ? 1.0 - cut / length : (cut > 0.0 ? -1.0 : 1.0);
+/// Where the ray to voxel z of the end column ends, before its cut.
+float RayCaster::endOfRay(const Fan& fan, int z) const {
+  const float rise = z + 0.5f - origin_.z();
+  const float length = std::sqrt(fan.distance_2 + rise * rise);
+  return length > 0.0f ? 1.0f - fan.cut / length : (fan.cut > 0.0f ? -1.0f : 1.0f);
 }
 
 }  // namespace fiimap

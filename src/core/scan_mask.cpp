@@ -3,13 +3,15 @@
 namespace fiimap {
 
 void ScanMask::begin(const VoxelBox& box) {
+  for (const std::int32_t column : end_columns_) {
+    for (const Layer layer : {kHit, kMissEnd}) {
+      std::fill_n(bits_[layer].begin() + column, words_, 0);
+    }
+  }
+  end_columns_.clear();
   // Only the columns that the last scan touched can hold bits.
   for (int x = touched_.min.x(); x < touched_.max.x(); ++x) {
-    for (auto& layer : bits_) {
-      const std::size_t first = columnIndex(x, touched_.min.y()) * words_;
-      const std::size_t last = columnIndex(x, touched_.max.y()) * words_;
-      std::fill(layer.begin() + first, layer.begin() + last, 0);
-    }
+    std::fill(column(kFree, x, touched_.min.y()), column(kFree, x, touched_.max.y()), 0);
   }
   box_ = box;
   size_ = box.empty() ? VoxelIndex::Zero() : box.size();
@@ -24,6 +26,24 @@ void ScanMask::begin(const VoxelBox& box) {
 void ScanMask::touch(int x, int y) {
   touched_.min = touched_.min.cwiseMin(VoxelIndex(x, y, 0));
   touched_.max = touched_.max.cwiseMax(VoxelIndex(x + 1, y + 1, size_.z()));
+}
+
+void ScanMask::markFreeRun(std::int32_t column_offset, int z_low, int z_high) {
+  z_low = std::max(z_low, 0);
+  z_high = std::min(z_high, size_.z() - 1);
+  if (z_low > z_high) return;
+  std::uint64_t* const words = bits_[kFree].data() + column_offset;
+  const int first = z_low / kWordBits;
+  const int last = z_high / kWordBits;
+  const std::uint64_t from_low = ~std::uint64_t{0} << (z_low % kWordBits);
+  const std::uint64_t to_high = ~std::uint64_t{0} >> (kWordBits - 1 - z_high % kWordBits);
+  if (first == last) {
+    words[first] |= from_low & to_high;
+    return;
+  }
+  words[first] |= from_low;
+  for (int w = first + 1; w < last; ++w) words[w] = ~std::uint64_t{0};
+  words[last] |= to_high;
 }
 
 }  // namespace fiimap

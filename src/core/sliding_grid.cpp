@@ -17,6 +17,10 @@ int popcount(const std::uint64_t* words, int count) {
   return sum;
 }
 
+bool isZero(const std::uint64_t* words, int count) {
+  return std::all_of(words, words + count, [](std::uint64_t word) { return word == 0; });
+}
+
 }  // namespace
 
 TileRing::TileRing(int columns_x, int columns_y)
@@ -151,13 +155,14 @@ const std::uint64_t* SlidingGrid::column(Plane plane, int x, int y) const {
   return tile == nullptr ? zero_column_.data() : tile->column(plane, x, y, layout_);
 }
 
-void SlidingGrid::writeColumn(Plane plane, int x, int y, const std::uint64_t* words) {
-  const std::uint64_t* old_words = column(plane, x, y);
-  if (std::equal(words, words + layout_.words(), old_words)) return;
-  counts_[static_cast<int>(plane)] +=
-      popcount(words, layout_.words()) - popcount(old_words, layout_.words());
-  Tile& tile = writableTile(liveSlot(x, y));
-  std::copy_n(words, layout_.words(), tile.column(plane, x, y, layout_));
+void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words) {
+  const int count = columns * layout_.words();
+  if (slots_[ring_.slotOf(x, y)].tile == nullptr && isZero(words, count)) return;
+  Slot& slot = liveSlot(x, y);
+  const std::uint64_t* const old_words = slot.tile->column(plane, x, y, layout_);
+  if (std::equal(words, words + count, old_words)) return;
+  counts_[static_cast<int>(plane)] += popcount(words, count) - popcount(old_words, count);
+  std::copy_n(words, count, writableTile(slot).column(plane, x, y, layout_));
 }
 
 std::int8_t* SlidingGrid::logOdds(int x, int y) {

@@ -17,23 +17,15 @@ constexpr int kMarkerQueue = 2;  // window and update range
 }  // namespace
 
 CloudPublisher::CloudPublisher(ros::NodeHandle node, const std::string& map_frame, double rate)
-    : map_frame_(map_frame),
-      period_(
-          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))) {
+    : map_frame_(map_frame), thread_(rate, [this] { publish(); }) {
   const auto on_subscriber = [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); };
   occupied_ = node.advertise<sensor_msgs::PointCloud2>("occupied", kCloudQueue, on_subscriber);
   inflated_ = node.advertise<sensor_msgs::PointCloud2>("inflated", kCloudQueue, on_subscriber);
   window_ = node.advertise<visualization_msgs::Marker>("window", kMarkerQueue, on_subscriber);
-  thread_ = std::thread([this] { run(); });
 }
 
 CloudPublisher::~CloudPublisher() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
+  thread_.stop();
   // Only now, because the thread publishes; subscriber callbacks end here.
   for (ros::Publisher* publisher : {&occupied_, &inflated_, &window_}) publisher->shutdown();
 }
@@ -43,9 +35,8 @@ void CloudPublisher::offer(std::shared_ptr<const Snapshot> snapshot, const Voxel
     const std::lock_guard<std::mutex> lock(mutex_);
     snapshot_ = std::move(snapshot);
     update_box_ = update_box;
-    news_ = true;
   }
-  changed_.notify_all();
+  thread_.wake();
 }
 
 void CloudPublisher::clear() { offer(nullptr, VoxelBox()); }
@@ -53,28 +44,23 @@ void CloudPublisher::clear() { offer(nullptr, VoxelBox()); }
 void CloudPublisher::onSubscriber() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    news_ = news_ || snapshot_;
+    if (!snapshot_) return;
   }
-  changed_.notify_all();
+  thread_.wake();
 }
 
-void CloudPublisher::run() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (!stopping_) {
-    changed_.wait(lock, [this] { return news_ || stopping_; });
-    if (stopping_) return;
-    news_ = false;
-    const std::shared_ptr<const Snapshot> snapshot = snapshot_;
-    const VoxelBox update_box = update_box_;
-    const Clock::time_point next = Clock::now() + period_;
-    lock.unlock();
-    if (snapshot) {
-      publish(*snapshot, update_box);
-    } else {
-      publishEmpty();
-    }
-    lock.lock();
-    changed_.wait_until(lock, next, [this] { return stopping_; });
+void CloudPublisher::publish() {
+  std::shared_ptr<const Snapshot> snapshot;
+  VoxelBox update_box;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    snapshot = snapshot_;
+    update_box = update_box_;
+  }
+  if (snapshot) {
+    publish(*snapshot, update_box);
+  } else {
+    publishEmpty();
   }
 }
 

@@ -1,22 +1,20 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
 #include "fiimap/snapshot.h"
+#include "publishing_thread.h"
 
 namespace fiimap {
 
 /// Publishes the clouds and outlines of the newest snapshot in its own thread, only for topics with
-/// subscribers and at most at a given rate; a new subscriber gets the newest map at once. Stops in
-/// its destructor.
+/// subscribers and at most at a given rate; a new subscriber gets the newest map at once.
+/// Thread-safe.
 class CloudPublisher {
  public:
   /// \param node where the topics are advertised; \param rate Hz.
@@ -29,28 +27,21 @@ class CloudPublisher {
   void clear();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void onSubscriber();
-  void run();
+  void publish();
   void publish(const Snapshot& snapshot, const VoxelBox& update_box);
   void publishCloud(const ros::Publisher& publisher, const Snapshot& snapshot, Plane plane) const;
   void publishEmpty() const;
 
   std::string map_frame_;
-  Clock::duration period_;
-
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::shared_ptr<const Snapshot> snapshot_;
   VoxelBox update_box_;
-  bool news_ = false;
-  bool stopping_ = false;
 
   ros::Publisher occupied_;
   ros::Publisher inflated_;
   ros::Publisher window_;
-  std::thread thread_;
+  PublishingThread thread_;  // last, because it uses the others
 };
 
 }  // namespace fiimap

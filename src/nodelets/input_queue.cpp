@@ -4,33 +4,24 @@
 #include <utility>
 
 namespace fiimap {
-namespace {
 
-constexpr std::size_t kMaxOthers = 10000;  // poses, transforms, camera infos
-
-}  // namespace
-
-void InputQueue::push(Entry entry) {
+void InputQueue::push(Task task, Kind kind) {
+  // Destroyed after the lock is released, as it may hold the last reference to a message.
+  Task displaced;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return;
-    if (entry.is_scan && scans_ == max_scans_) {
-      dropOldest(true);
-      ++displaced_scans_;
-    } else if (!entry.is_scan && entries_.size() - scans_ == kMaxOthers) {
-      dropOldest(false);
+    if (kind != kControl && counts_[kind]++ == max_[kind]) {
+      const auto oldest = std::find_if(entries_.begin(), entries_.end(),
+                                       [kind](const Entry& e) { return e.kind == kind; });
+      displaced.swap(oldest->task);
+      entries_.erase(oldest);
+      --counts_[kind];
+      ++displaced_[kind];
     }
-    scans_ += entry.is_scan ? 1 : 0;
-    entries_.push_back(std::move(entry));
+    entries_.push_back({std::move(task), kind});
   }
   changed_.notify_one();
-}
-
-void InputQueue::dropOldest(bool scan) {
-  const auto oldest = std::find_if(entries_.begin(), entries_.end(),
-                                   [scan](const Entry& e) { return e.is_scan == scan; });
-  entries_.erase(oldest);
-  scans_ -= scan ? 1 : 0;
 }
 
 InputQueue::Batch InputQueue::take(std::chrono::milliseconds wait) {
@@ -40,8 +31,10 @@ InputQueue::Batch InputQueue::take(std::chrono::milliseconds wait) {
   batch.tasks.reserve(entries_.size());
   for (Entry& entry : entries_) batch.tasks.push_back(std::move(entry.task));
   entries_.clear();
-  scans_ = 0;
-  std::swap(batch.displaced_scans, displaced_scans_);
+  counts_ = {};
+  batch.displaced_scans = displaced_[kScan];
+  batch.displaced_others = displaced_[kOther];
+  displaced_ = {};
   return batch;
 }
 
@@ -51,7 +44,7 @@ void InputQueue::close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closed_ = true;
     discarded.swap(entries_);
-    scans_ = 0;
+    counts_ = {};
   }
   changed_.notify_all();
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fiimap/ros/steady_time.h"
+
 namespace fiimap {
 namespace {
 
@@ -20,11 +22,6 @@ const char* nameOf(Occupancy occupancy) {
     default:
       return "unknown";
   }
-}
-
-double secondsBetween(std::chrono::steady_clock::time_point from,
-                      std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
 }
 
 }  // namespace
@@ -107,6 +104,8 @@ void MappingDiagnostics::reportInputs(Status& status) {
     status.add(std::string("dropped: ") + fiimap::nameOf(reason), counters.dropped(reason));
   }
   status.add("last drop", counters.last_drop);
+  status.add("poses refused", counters.refused_poses);
+  status.add("poses, transforms and camera infos displaced", counters.displaced_inputs);
 }
 
 void MappingDiagnostics::reportMap(Status& status) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
-constexpr double kDiagnosticsPeriod = 1.0;      // s
+constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
 constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one reason
 constexpr double kMegabyte = 1e6;
@@ -86,10 +86,13 @@ void MappingNodelet::logStart(const Mapper& mapper) {
 
 void MappingNodelet::advertise() {
   ros::NodeHandle& node = getPrivateNodeHandle();
-  statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue);
-  handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue);
+  const bool latch = true;
+  statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue, latch);
+  handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue, latch);
   clouds_ =
       std::make_unique<CloudPublisher>(node, node_config_.map_frame, node_config_.publish_rate);
+  vehicle_ =
+      std::make_unique<VehiclePublisher>(node, node_config_.map_frame, node_config_.publish_rate);
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
                                                       [this] { return mapping_->counters(); });
 
@@ -147,12 +150,14 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
       VoxelLattice::boxAround(snapshot.lattice().indexOf(update.pose.vehicle_W),
                               snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()));
   clouds_->offer(update.snapshot, update_range.intersection(snapshot.window()));
+  vehicle_->add(toPose(update.T_W_B, toHeader(snapshot, frame)));
   diagnostics_->onUpdate(update);
 }
 
 void MappingNodelet::onReset(const std::string& why) {
   NODELET_WARN("the map was forgotten: %s", why.c_str());
   clouds_->clear();
+  vehicle_->clear();
   diagnostics_->onReset();
 }
 

@@ -18,6 +18,7 @@
 #include "input_subscriber.h"
 #include "mapping_diagnostics.h"
 #include "mapping_thread.h"
+#include "vehicle_publisher.h"
 
 namespace fiimap {
 
@@ -54,6 +55,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   ros::Publisher statistics_publisher_;
   ros::Publisher handle_publisher_;
   std::unique_ptr<CloudPublisher> clouds_;
+  std::unique_ptr<VehiclePublisher> vehicle_;
   std::unique_ptr<MappingThread> mapping_;
   std::unique_ptr<InputSubscriber> inputs_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fiimap/ros/stamps.h"
+#include "fiimap/ros/steady_time.h"
 
 namespace fiimap {
 namespace {
@@ -13,10 +14,6 @@ constexpr std::chrono::milliseconds kPoll{50};  // how often waiting scans are l
 constexpr double kClockJump = 1.0;              // s
 
 using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -48,13 +45,13 @@ void MappingThread::addScan(const ScanMessage& scan) {
 
 void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
   readClocks();
-  queue_.push([this, input = std::move(input)] { input(&synchronizer_); });
+  queue_.pushOther([this, input = std::move(input)] { input(&synchronizer_); });
 }
 
 bool MappingThread::reset() {
   auto done = std::make_shared<std::promise<void>>();
   std::future<void> finished = done->get_future();
-  queue_.push([this, done] {
+  queue_.pushControl([this, done] {
     forget("reset was asked for");
     done->set_value();
   });
@@ -76,7 +73,7 @@ Moment MappingThread::readClocks() {
   const double step_back = secondsBetween(now.ros, newest_time_);
   newest_time_ = now.ros;
   if (step_back > kClockJump) {
-    queue_.push([this, step_back] {
+    queue_.pushControl([this, step_back] {
       synchronizer_.restart("the clock went back by " + std::to_string(step_back) + " s");
     });
   }
@@ -92,6 +89,7 @@ void MappingThread::countWaiting() { counters_.waiting = synchronizer_.waiting()
 
 void MappingThread::publishCounters() {
   countWaiting();
+  counters_.refused_poses = synchronizer_.poses().refusedPoses();
   const std::lock_guard<std::mutex> lock(counters_mutex_);
   published_counters_ = counters_;
 }
@@ -108,6 +106,7 @@ void MappingThread::step() {
     ++counters_.received;
     drop({DropReason::kOverload, "a scan was displaced before it could be looked at"});
   }
+  counters_.displaced_inputs += batch.displaced_others;
   for (const InputQueue::Task& task : batch.tasks) {
     if (stopping_) return;
     task();
@@ -135,6 +134,7 @@ void MappingThread::integrateNext() {
   handle_->publish(update.snapshot);
 
   update.pose = scan.pose;
+  update.T_W_B = scan.T_W_B;
   update.pose_gap = scan.pose_gap;
   update.decode_ms = decoder_.decodeTimeMs();
   update.memory_bytes = mapper_.memoryBytes();

@@ -21,7 +21,8 @@ namespace fiimap {
 /// The map after a scan, and what the scan did.
 struct MapUpdate {
   ScanPose pose;
-  double pose_gap = 0.0;  ///< s between the poses around the scan
+  Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< vehicle's body to world
+  double pose_gap = 0.0;                                    ///< s between the poses around the scan
   ScanReport report;
   double decode_ms = 0.0;
   std::shared_ptr<const Snapshot> snapshot;

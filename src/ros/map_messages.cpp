@@ -13,6 +13,8 @@ static_assert(static_cast<int>(ElementShape::kBall) == MapInfo::SHAPE_BALL &&
 
 constexpr std::uint32_t kPointBytes = 3 * sizeof(float);
 constexpr double kLineWidth = 0.05;  // m
+constexpr double kAxisLength = 1.0;  // m
+constexpr double kAxisWidth = 0.15;  // m
 
 void addField(const std::string& name, std::uint32_t offset, sensor_msgs::PointCloud2* cloud) {
   sensor_msgs::PointField field;
@@ -108,6 +110,49 @@ visualization_msgs::Marker toOutline(const VoxelBox& box, const Snapshot& snapsh
       if (to == from) continue;
       marker.points.push_back(corner(from));
       marker.points.push_back(corner(to));
+    }
+  }
+  return marker;
+}
+
+geometry_msgs::PoseStamped toPose(const Eigen::Isometry3d& T_W_B, const std_msgs::Header& header) {
+  const Eigen::Quaterniond rotation(T_W_B.linear());
+  geometry_msgs::PoseStamped pose;
+  pose.header = header;
+  pose.pose.position = toPoint(T_W_B.translation());
+  pose.pose.orientation.x = rotation.x();
+  pose.pose.orientation.y = rotation.y();
+  pose.pose.orientation.z = rotation.z();
+  pose.pose.orientation.w = rotation.w();
+  return pose;
+}
+
+nav_msgs::Path toPath(const VehiclePath& path, const std::string& map_frame) {
+  nav_msgs::Path message;
+  message.poses = path.poses();
+  if (!message.poses.empty()) message.header = message.poses.back().header;
+  message.header.frame_id = map_frame;
+  return message;
+}
+
+visualization_msgs::Marker toVehicleMarker(const VehiclePath& path, const std::string& map_frame) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = map_frame;
+  marker.ns = "vehicle";
+  marker.action = visualization_msgs::Marker::DELETE;
+  if (path.poses().empty()) return marker;
+  marker.header = path.poses().back().header;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.pose = path.poses().back().pose;
+  marker.scale.x = kAxisWidth;
+  for (int axis = 0; axis < 3; ++axis) {
+    std_msgs::ColorRGBA color;
+    color.a = 1.0F;
+    (axis == 0 ? color.r : axis == 1 ? color.g : color.b) = 1.0F;
+    for (const double length : {0.0, kAxisLength}) {
+      marker.points.push_back(toPoint(length * Eigen::Vector3d::Unit(axis)));
+      marker.colors.push_back(color);
     }
   }
   return marker;

@@ -44,12 +44,11 @@ ResolvedPose withoutPose(PoseLookup lookup, const std::string& detail) {
   }
 }
 
-ResolvedPose resolved(const Eigen::Isometry3d& T_W_S, const Eigen::Vector3d& vehicle_W,
-                      double gap) {
+ResolvedPose resolved(const Eigen::Isometry3d& T_W_S, const Eigen::Isometry3d& T_W_B, double gap) {
   ResolvedPose pose;
   pose.state = ResolvedPose::State::kFound;
   pose.T_W_S = T_W_S;
-  pose.vehicle_W = vehicle_W;
+  pose.T_W_B = T_W_B;
   pose.gap = gap;
   return pose;
 }
@@ -87,9 +86,13 @@ void PoseResolver::add(const geometry_msgs::TransformStamped& transform) {
     history_.add(transform);
     refused_.reset();
   } catch (const InputError& error) {
-    refused_ = error.drop();
-    ++refused_poses_;
+    refuse(error.drop());
   }
+}
+
+void PoseResolver::refuse(const Drop& why) {
+  refused_ = why;
+  ++refused_poses_;
 }
 
 void PoseResolver::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
@@ -150,7 +153,7 @@ ResolvedPose PoseResolver::sensorOnBody(const Eigen::Isometry3d& T_W_B, double g
     }
     T_B_S = extrinsics.T_target_source;
   }
-  ResolvedPose pose = resolved(T_W_B * T_B_S, T_W_B.translation(), gap);
+  ResolvedPose pose = resolved(T_W_B * T_B_S, T_W_B, gap);
   pose.sensor_axes_like_body = isNearIdentity(T_B_S.linear());
   return pose;
 }
@@ -169,13 +172,13 @@ ResolvedPose PoseResolver::sensorFromTf(const std::string& sensor_frame,
       tree_.at(config_.map_frame, sensor_frame, stamp, config_.max_pose_gap);
   if (sensor.lookup != PoseLookup::kFound) return withoutPose(sensor.lookup, sensor.why);
   const Eigen::Isometry3d& T_W_S = sensor.T_target_source;
-  if (config_.body_frame.empty()) return resolved(T_W_S, T_W_S.translation(), sensor.gap);
+  if (config_.body_frame.empty()) return resolved(T_W_S, T_W_S, sensor.gap);
 
   const TransformAtStamp body =
       tree_.at(config_.map_frame, config_.body_frame, stamp, config_.max_pose_gap);
   if (body.lookup != PoseLookup::kFound) return withoutPose(body.lookup, body.why);
   const Eigen::Isometry3d& T_W_B = body.T_target_source;
-  ResolvedPose pose = resolved(T_W_S, T_W_B.translation(), sensor.gap);
+  ResolvedPose pose = resolved(T_W_S, T_W_B, sensor.gap);
   pose.sensor_axes_like_body = isNearIdentity(T_W_B.linear().transpose() * T_W_S.linear());
   return pose;
 }

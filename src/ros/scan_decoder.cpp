@@ -4,20 +4,12 @@
 #include <stdexcept>
 
 #include "fiimap/ros/message_conversions.h"
+#include "fiimap/ros/steady_time.h"
 
 namespace fiimap {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 ScanReport ScanDecoder::integrate(const SynchronizedScan& scan, Mapper* mapper) {
-  const Clock::time_point start = Clock::now();
+  const SteadyTime start = std::chrono::steady_clock::now();
   // What the mapper itself refuses after decoding can only be the pose.
   try {
     if (const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message)) {

@@ -3,20 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fiimap/ros/frame_id.h"
 #include "fiimap/ros/message_conversions.h"
 #include "fiimap/ros/stamps.h"
+#include "fiimap/ros/steady_time.h"
 
 namespace fiimap {
 namespace {
 
-constexpr double kTimeJump = 1.0;  // s; stamps that go back further mean that time began again
 constexpr double kNanoseconds = 1e9;
 
 const std_msgs::Header& headerOf(const ScanMessage& scan) {
   return std::visit([](const auto& message) -> const std_msgs::Header& { return message->header; },
                     scan);
+}
+
+const std_msgs::Header& headerOf(const PoseMessage& pose) {
+  return std::visit([](const auto& message) -> const std_msgs::Header& { return message.header; },
+                    pose);
+}
+
+/// Of a single wrong stamp.
+Drop strayStamp(const std::string& what, const ros::Time& newest, const ros::Time& stamp) {
+  return {DropReason::kStaleStamp, what + " alone is stamped " +
+                                       std::to_string(secondsBetween(newest, stamp)) +
+                                       " s after the one before"};
 }
 
 /// stamp + offset; zero where that is not a time.
@@ -30,8 +43,7 @@ ros::Time shifted(const ros::Time& stamp, double offset) {
 
 /// Seconds that passed by both clocks.
 double secondsOfBoth(const Moment& from, const Moment& to) {
-  const std::chrono::duration<double> steady = to.steady - from.steady;
-  return std::min(secondsBetween(from.ros, to.ros), steady.count());
+  return std::min(secondsBetween(from.ros, to.ros), secondsBetween(from.steady, to.steady));
 }
 
 }  // namespace
@@ -39,19 +51,39 @@ double secondsOfBoth(const Moment& from, const Moment& to) {
 ScanSynchronizer::ScanSynchronizer(const NodeConfig& config, ScanListener* listener)
     : config_(config), listener_(listener), poses_(config) {}
 
-template <typename PoseMessage>
-void ScanSynchronizer::addPose(const PoseMessage& pose) {
-  const ros::Time& stamp = pose.header.stamp;
+void ScanSynchronizer::add(const PoseMessage& pose) {
+  const std_msgs::Header& header = headerOf(pose);
   // Poses of another frame are refused, so they must not tell the time either.
-  const bool is_ours = plainFrame(pose.header.frame_id) == config_.map_frame;
-  if (is_ours && !stamp.isZero()) checkForJump(stamp, poses_.newestPose(), "poses");
-  poses_.add(pose);
+  const bool tells_time =
+      plainFrame(header.frame_id) == config_.map_frame && !header.stamp.isZero();
+  const StampVerdict verdict =
+      tells_time ? pose_guard_.judge(header.stamp, newest_scan_) : StampVerdict::kGood;
+  const auto use = [this](const auto& message) { poses_.add(message); };
+  switch (verdict) {
+    case StampVerdict::kDoubtful:
+      refuseDoubtfulPose();
+      doubtful_pose_ = pose;
+      return;
+    case StampVerdict::kJumpBack:
+      restart(pose_guard_.newest(), header.stamp, "poses");
+      add(pose);
+      return;
+    case StampVerdict::kLeap:
+      if (doubtful_pose_) std::visit(use, *doubtful_pose_);
+      doubtful_pose_.reset();
+      break;
+    case StampVerdict::kGood:
+      if (tells_time) refuseDoubtfulPose();
+  }
+  std::visit(use, pose);
   emitReadyScans();
 }
 
-void ScanSynchronizer::add(const nav_msgs::Odometry& odometry) { addPose(odometry); }
-void ScanSynchronizer::add(const geometry_msgs::PoseStamped& pose) { addPose(pose); }
-void ScanSynchronizer::add(const geometry_msgs::TransformStamped& pose) { addPose(pose); }
+void ScanSynchronizer::refuseDoubtfulPose() {
+  if (!doubtful_pose_) return;
+  poses_.refuse(strayStamp("a pose", pose_guard_.newest(), headerOf(*doubtful_pose_).stamp));
+  doubtful_pose_.reset();
+}
 
 void ScanSynchronizer::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
   poses_.addTf(transforms, is_static);
@@ -72,15 +104,43 @@ void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received) {
     listener_->onDrop({DropReason::kZeroStamp, "a scan has no stamp"});
     return;
   }
-  checkForJump(stamp, newest_scan_, "scans");
-  if (stamp <= newest_scan_) {
+  add(WaitingScan{scan, plainFrame(header.frame_id), stamp, received});
+}
+
+void ScanSynchronizer::add(const WaitingScan& scan) {
+  switch (scan_guard_.judge(scan.stamp, poses_.newestPose())) {
+    case StampVerdict::kDoubtful:
+      dropDoubtfulScan();
+      doubtful_scan_ = scan;
+      return;
+    case StampVerdict::kJumpBack:
+      restart(scan_guard_.newest(), scan.stamp, "scans");
+      add(scan);
+      return;
+    case StampVerdict::kLeap:
+      if (doubtful_scan_) enqueue(*std::exchange(doubtful_scan_, std::nullopt));
+      break;
+    case StampVerdict::kGood:
+      dropDoubtfulScan();
+  }
+  enqueue(scan);
+}
+
+void ScanSynchronizer::dropDoubtfulScan() {
+  if (!doubtful_scan_) return;
+  const ros::Time stamp = std::exchange(doubtful_scan_, std::nullopt)->stamp;
+  listener_->onDrop(strayStamp("a scan", newest_scan_, stamp));
+}
+
+void ScanSynchronizer::enqueue(const WaitingScan& scan) {
+  if (scan.stamp <= newest_scan_) {
     listener_->onDrop({DropReason::kStaleStamp,
-                       "a scan is " + std::to_string(secondsBetween(stamp, newest_scan_)) +
+                       "a scan is " + std::to_string(secondsBetween(scan.stamp, newest_scan_)) +
                            " s older than the one before"});
     return;
   }
-  newest_scan_ = stamp;
-  waiting_.push_back({scan, plainFrame(header.frame_id), stamp, received});
+  newest_scan_ = scan.stamp;
+  waiting_.push_back(scan);
   emitReadyScans();
   if (waiting_.size() > static_cast<std::size_t>(config_.scan_queue_size)) {
     dropFront(whyQueueIsFull(attempt(waiting_.front()).pose.why));
@@ -88,18 +148,28 @@ void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received) {
   }
 }
 
-void ScanSynchronizer::checkForJump(const ros::Time& stamp, const ros::Time& newest,
-                                    const std::string& what) {
-  const double step_back = secondsBetween(stamp, newest);
-  if (step_back <= kTimeJump) return;
-  restart("the stamps of " + what + " went back by " + std::to_string(step_back) + " s");
+void ScanSynchronizer::restart(const ros::Time& newest, const ros::Time& stamp,
+                               const std::string& what) {
+  restart("the stamps of " + what + " went back by " +
+          std::to_string(secondsBetween(stamp, newest)) + " s");
 }
 
 void ScanSynchronizer::restart(const std::string& why) {
+  // Doubtful messages that are older than the others belong to the new time.
+  if (doubtful_scan_ && doubtful_scan_->stamp > scan_guard_.newest()) dropDoubtfulScan();
+  if (doubtful_pose_ && headerOf(*doubtful_pose_).stamp > pose_guard_.newest()) {
+    refuseDoubtfulPose();
+  }
+  const auto scan = std::exchange(doubtful_scan_, std::nullopt);
+  const auto pose = std::exchange(doubtful_pose_, std::nullopt);
   while (!waiting_.empty()) dropFront({DropReason::kTimeJump, why + " while the scan waited"});
   poses_.clear();
+  scan_guard_.clear();
+  pose_guard_.clear();
   newest_scan_ = ros::Time();
   listener_->onTimeJump(why);
+  if (pose) add(*pose);
+  if (scan) add(*scan);
 }
 
 void ScanSynchronizer::emitReadyScans() {
@@ -126,7 +196,8 @@ void ScanSynchronizer::emitFront(const Attempt& result) {
   scan.message = front.message;
   scan.intrinsics = result.intrinsics;
   scan.pose.T_W_S = result.pose.T_W_S;
-  scan.pose.vehicle_W = result.pose.vehicle_W;
+  scan.pose.vehicle_W = result.pose.T_W_B.translation();
+  scan.T_W_B = result.pose.T_W_B;
   scan.pose.stamp_ns = static_cast<std::int64_t>(front.stamp.toNSec());
   scan.pose_gap = result.pose.gap;
   listener_->onScan(scan);
@@ -142,9 +213,13 @@ void ScanSynchronizer::expire(const Moment& now) {
     dropFront(attempt(waiting_.front()).pose.why);
     emitReadyScans();
   }
+  if (doubtful_scan_ && secondsOfBoth(doubtful_scan_->received, now) > config_.max_pose_wait) {
+    dropDoubtfulScan();
+  }
 }
 
 void ScanSynchronizer::finish() {
+  dropDoubtfulScan();
   while (!waiting_.empty()) dropFront(attempt(waiting_.front()).pose.why);
 }
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "fiimap/ros/frame_id.h"
+#include "fiimap/ros/message_conversions.h"
 
 namespace fiimap {
 namespace {
@@ -39,15 +40,34 @@ std::string choose(const std::string& named, const std::set<std::string>& candid
                                         "; name one with --set " + parameter + "=TOPIC");
 }
 
+/// Null when there is none.
 template <typename Message>
-std::string frameOfFirst(const rosbag::Bag& bag, const std::string& topic) {
+boost::shared_ptr<Message> firstOf(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
-    if (const auto message = instance.instantiate<Message>()) {
-      return plainFrame(message->header.frame_id);
+    if (const auto message = instance.instantiate<Message>()) return message;
+  }
+  return nullptr;
+}
+
+struct ImageTopics {
+  std::set<std::string> depth;
+  std::string others;  ///< in words, with their encodings
+};
+
+/// Tells depth images from colour images by the first image of each topic.
+ImageTopics imageTopicsIn(const rosbag::Bag& bag) {
+  ImageTopics topics;
+  for (const std::string& topic : topicsOfType<sensor_msgs::Image>(bag)) {
+    const auto image = firstOf<sensor_msgs::Image>(bag, topic);
+    if (!image) continue;
+    if (isDepthEncoding(image->encoding)) {
+      topics.depth.insert(topic);
+    } else {
+      topics.others += " " + topic + " (" + image->encoding + ")";
     }
   }
-  return "";
+  return topics;
 }
 
 PoseSource poseSourceIn(const rosbag::Bag& bag) {
@@ -62,7 +82,8 @@ void choosePoses(const rosbag::Bag& bag, bool frame_is_open, const std::string& 
                  BagTopics* topics, NodeConfig* config) {
   topics->pose_topic = choose(topics->pose_topic, topicsOfType<Message>(bag), "pose_topic", what);
   if (!frame_is_open) return;
-  const std::string frame = frameOfFirst<Message>(bag, topics->pose_topic);
+  const auto pose = firstOf<Message>(bag, topics->pose_topic);
+  const std::string frame = pose ? plainFrame(pose->header.frame_id) : "";
   if (!frame.empty()) config->map_frame = frame;
 }
 
@@ -79,19 +100,24 @@ std::vector<Parameter> BagTopics::parameters() {
 
 BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, BagTopics topics,
                        NodeConfig* config) {
-  const auto images = topicsOfType<sensor_msgs::Image>(bag);
+  const ImageTopics images = imageTopicsIn(bag);
   const auto infos = topicsOfType<sensor_msgs::CameraInfo>(bag);
   if (settings.count("sensor") == 0) {
-    const bool has_depth = topics.points_topic.empty() && !images.empty() && !infos.empty();
+    const bool has_depth = topics.points_topic.empty() && !infos.empty() &&
+                           (!images.depth.empty() || !topics.depth_topic.empty());
     config->sensor = has_depth ? SensorKind::kDepth : SensorKind::kPoints;
   }
   if (config->sensor == SensorKind::kDepth) {
-    topics.depth_topic = choose(topics.depth_topic, images, "depth_topic", "sensor_msgs/Image");
+    std::string what = "sensor_msgs/Image of encoding 16UC1, mono16 or 32FC1";
+    if (images.depth.empty() && !images.others.empty()) what += ", only" + images.others;
+    topics.depth_topic = choose(topics.depth_topic, images.depth, "depth_topic", what);
     topics.camera_info_topic =
         choose(topics.camera_info_topic, infos, "camera_info_topic", "sensor_msgs/CameraInfo");
   } else {
+    std::string what = "sensor_msgs/PointCloud2";
+    if (!images.others.empty()) what += " and no depth images, only" + images.others;
     topics.points_topic = choose(topics.points_topic, topicsOfType<sensor_msgs::PointCloud2>(bag),
-                                 "points_topic", "sensor_msgs/PointCloud2");
+                                 "points_topic", what);
   }
 
   if (settings.count("pose_source") == 0) config->pose_source = poseSourceIn(bag);

@@ -21,11 +21,11 @@ struct BagTopics {
 };
 
 /// Fills in what the user left open, from the message types in the bag: topics, and, where
-/// `settings` does not name them, config->sensor (a depth image with intrinsics before a cloud),
-/// config->pose_source (odometry, then pose, then transform, then TF) and config->map_frame (the
-/// frame of the first pose).
-/// \throws std::invalid_argument when there is no input, or more than one candidate for it; the
-/// text lists them.
+/// `settings` does not name them, config->sensor (a depth image with intrinsics before a cloud;
+/// what is a depth image, its encoding tells), config->pose_source (odometry, then pose, then
+/// transform, then TF) and config->map_frame (the frame of the first pose). \throws
+/// std::invalid_argument when there is no input, or more than one candidate for it; the text lists
+/// them.
 BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, BagTopics topics,
                        NodeConfig* config);
 

@@ -21,8 +21,10 @@ constexpr char kUsage[] =
     "                                      others\n"
     "  fiimap_eval truth BAG [options]     compares the map with the exact scene of a synthetic\n"
     "                                      recording\n"
-    "  fiimap_eval parameters              lists every parameter: name, default, unit, allowed\n"
-    "                                      values, meaning\n\n";
+    "  fiimap_eval parameters              lists the parameters of map and node: name, default,\n"
+    "                                      unit, allowed values, meaning\n\n"
+    "Topics that are not found by type are set like parameters: depth_topic, camera_info_topic, "
+    "points_topic, pose_topic.\n\n";
 
 po::options_description describe(const std::string& title, fiimap::InputOptions* input) {
   po::options_description options(title);

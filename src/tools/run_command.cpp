@@ -8,6 +8,7 @@
 #include "fiimap/mapper.h"
 #include "fiimap/ros/map_files.h"
 #include "fiimap/ros/scan_decoder.h"
+#include "fiimap/ros/steady_time.h"
 #include "inflation_check.h"
 #include "run_report.h"
 #include "scan_evaluator.h"
@@ -34,11 +35,9 @@ class MapBuilder : public ScanEvaluator {
  private:
   void addScan(const SynchronizedScan& scan, std::size_t /*index*/) override {
     ScanReport report = decoder_.integrate(scan, &mapper_);
-    const auto start = std::chrono::steady_clock::now();
+    const SteadyTime start = std::chrono::steady_clock::now();
     snapshot_ = mapper_.snapshot();
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    report.times_ms.snapshot = elapsed.count();
+    report.times_ms.snapshot = millisecondsSince(start);
     report_.add(report);
     last_is_verified_ = false;
     if (verify_every_ > 0 && ++since_verified_ == verify_every_) verify();

@@ -18,7 +18,7 @@ struct RunOptions {
 int run(const RunOptions& options);
 
 /// `fiimap_eval parameters`: prints name, default, unit, allowed values and meaning of every
-/// parameter, separated by tabs.
+/// parameter of map and node, separated by tabs.
 void printParameters();
 
 }  // namespace fiimap

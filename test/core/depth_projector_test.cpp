@@ -135,7 +135,7 @@ TEST_P(DepthProjectorStepTest, AgreesWithBackProjectionInBothFormats) {
         EXPECT_EQ(count.total, expected.size());
         EXPECT_EQ(count.returns, expected.size());
         EXPECT_TRUE(scan.misses.empty());
-        expectSamePoints(scan.returns, expected);
+        expectSamePoints(test::toVector(scan.returns), expected);
       }
     }
   }

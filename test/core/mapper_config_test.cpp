@@ -149,7 +149,7 @@ TEST(MapperParametersTest, RangesAreEnforcedAsDescribed) {
     }
     EXPECT_EQ(parameter.get(), in_range);
   }
-  EXPECT_EQ(numeric, 28) << "numeric parameters whose description names no range";
+  EXPECT_EQ(numeric, 27) << "numeric parameters whose description names no range";
 }
 
 TEST(MapperParametersTest, RefuseTheWrongType) {
@@ -259,8 +259,16 @@ TEST(MapperConfigTest, ConnectivityIsOneOfThree) {
   }
   for (const int bad : {-6, 0, 4, 7, 8, 12, 19, 25, 27}) {
     expectRefused([&](MapperConfig* c) { c->bfs_connectivity = bad; },
-                  {"bfs_connectivity", std::to_string(bad), "6", "26"});
+                  {"bfs_connectivity", std::to_string(bad), "6, 18 or 26"});
   }
+}
+
+TEST(MapperConfigTest, TheWindowFollowsBeforeTheVehicleLeavesIt) {
+  expectAccepted([](MapperConfig* c) { c->slide_distance = 3.0; });
+  const auto slideFar = [](MapperConfig* c) { c->slide_distance = 3.1; };
+  expectRefused(slideFar, {"slide_distance", "3.1", "[0, 3.0", "map_size"});
+  expectRefused([](MapperConfig* c) { c->map_size_y = 0.5; }, {"slide_distance", "0.4", "0.25"});
+  expectAccepted([&](MapperConfig* c) { slideFar(c), c->map_mode = MapMode::kFixed; });
 }
 
 TEST(MapperConfigTest, RadiusIsAtMost64Voxels) {

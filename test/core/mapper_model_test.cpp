@@ -25,7 +25,8 @@ MapperConfig randomConfig(test::Random& random) {
   config.local_update_range_x = test::uniformInt(random, 4, 30) * config.resolution;
   config.local_update_range_y = test::uniformInt(random, 4, 30) * config.resolution;
   config.local_update_range_z = test::uniformInt(random, 4, 70) * config.resolution;
-  config.slide_distance = test::uniformReal(random, 0.0, 2.0);
+  const double max_slide = std::min(2.0, config.mapSize().minCoeff() / 2.0);
+  config.slide_distance = test::uniformReal(random, 0.0, max_slide);
   config.ray_end_cut = test::uniformInt(random, 0, 3) * 0.5;
   config.max_ray_length = test::uniformReal(random, 2.0, 10.0);
   config.max_depth = 100.0;

@@ -11,12 +11,19 @@
 
 #include <gtest/gtest.h>
 
+#include "fiimap/range_data.h"
 #include "fiimap/sliding_grid.h"
 #include "fiimap/structuring_element.h"
 #include "fiimap/voxel_lattice.h"
 
 /// Reference models written from the definitions alone, slow and simple, and seeded random worlds.
 namespace fiimap::test {
+
+inline std::vector<Eigen::Vector3f> toVector(const PointList& points) {
+  std::vector<Eigen::Vector3f> vector;
+  for (const Eigen::Vector3f& point : points) vector.push_back(point);
+  return vector;
+}
 
 using Random = std::mt19937;
 

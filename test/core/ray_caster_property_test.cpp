@@ -193,9 +193,12 @@ TEST_P(RayCasterPropertyTest, NeitherOrderNorRepetitionOfPointsMatters) {
     const RayCount count = caster.cast(scan, setting.box, &mask);
 
     for (auto* points : {&scan.returns, &scan.misses}) {
-      const std::vector<Eigen::Vector3f> copy = *points;
-      points->insert(points->end(), copy.begin(), copy.end());
-      std::shuffle(points->begin(), points->end(), random);
+      std::vector<Eigen::Vector3f> twice = test::toVector(*points);
+      const std::vector<Eigen::Vector3f> copy = twice;
+      twice.insert(twice.end(), copy.begin(), copy.end());
+      std::shuffle(twice.begin(), twice.end(), random);
+      points->clear();
+      for (const Eigen::Vector3f& point : twice) points->push_back(point);
     }
     const RayCount other_count = caster.cast(scan, setting.box, &other_mask);
     ASSERT_EQ(bitsOf(other_mask), bitsOf(mask));

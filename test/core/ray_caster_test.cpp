@@ -197,7 +197,7 @@ TEST(RayCasterTest, ACastForgetsTheOneBefore) {
   RayCaster caster(VoxelLattice(kResolution), 0.0);
   ScanMask mask;
   RangeData something;
-  something.returns.emplace_back(1.0f, 0.5f, 0.75f);
+  something.returns.push_back({1.0f, 0.5f, 0.75f});
   caster.cast(something, kBox, &mask);
   const RayCount count = caster.cast(nothing, kBox, &mask);
   EXPECT_EQ(count.hits + count.misses, 0u);

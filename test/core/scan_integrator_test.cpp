@@ -64,7 +64,7 @@ Observations randomScan(const VoxelBox& box, double hit_share, test::Random& ran
     }
     if (!is_hit || test::chance(random, 0.3)) {
       const int top = std::min(d.z() + test::uniformInt(random, 0, 5), box.size().z() - 1);
-      mask->markFreeRun(d.x(), d.y(), d.z(), top);
+      mask->markFreeRun(mask->columnOffset(d.x(), d.y()), d.z(), top);
       for (int z = d.z(); z <= top; ++z)
         observed.misses.insert(box.min + VoxelIndex(d.x(), d.y(), z));
     }

@@ -33,7 +33,7 @@ TEST(ScanMaskTest, FreeRunsAreClippedToTheBox) {
     ScanMask mask;
     mask.begin({{0, 0, 7}, {2, 2, 7 + height}});
     mask.touch(1, 0);
-    mask.markFreeRun(1, 0, low, high);
+    mask.markFreeRun(mask.columnOffset(1, 0), low, high);
     test::forEachVoxel({{0, 0, 0}, {2, 2, height}}, [&](const VoxelIndex& v) {
       const bool in_run = v.x() == 1 && v.y() == 0 && v.z() >= low && v.z() <= high;
       ASSERT_EQ(mask.test(ScanMask::kFree, v), in_run)
@@ -47,9 +47,9 @@ TEST(ScanMaskTest, FreeRunsAddUp) {
   ScanMask mask;
   mask.begin({{0, 0, 0}, {1, 1, 100}});
   mask.touch(0, 0);
-  mask.markFreeRun(0, 0, 60, 70);
-  mask.markFreeRun(0, 0, 10, 12);
-  mask.markFreeRun(0, 0, 65, 80);
+  mask.markFreeRun(mask.columnOffset(0, 0), 60, 70);
+  mask.markFreeRun(mask.columnOffset(0, 0), 10, 12);
+  mask.markFreeRun(mask.columnOffset(0, 0), 65, 80);
   for (int z = 0; z < 100; ++z) {
     EXPECT_EQ(mask.test(ScanMask::kFree, {0, 0, z}), (z >= 10 && z <= 12) || (z >= 60 && z <= 80));
   }

@@ -1,7 +1,17 @@
 // The offline tool must notice what it is there to notice.
 
-#include <gtest/gtest.h>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+#include <string>
 
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "bag_topics.h"
 #include "fiimap/snapshot.h"
 #include "inflation_check.h"
 #include "run_report.h"
@@ -61,6 +71,49 @@ TEST_F(InflationCheckTest, CountsEverythingWhereNothingIsOccupied) {
   grid_.clear();
   grid_.set(Plane::kInflated, {3, 4, 5}, true);
   EXPECT_EQ(mismatches(), 1);
+}
+
+/// A bag of images, each on a topic of its own with an encoding, and of what belongs to them.
+class BagTopicsTest : public testing::Test {
+ protected:
+  BagTopicsTest() : file_(testing::TempDir() + "bag_topics_test.bag") {}
+  ~BagTopicsTest() override { std::remove(file_.c_str()); }
+
+  std::string chosen(const std::map<std::string, std::string>& encodings) {
+    const ros::Time stamp(1.0);
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    for (const auto& [topic, encoding] : encodings) {
+      sensor_msgs::Image image;
+      image.encoding = encoding;
+      bag.write(topic, stamp, image);
+    }
+    bag.write("/info", stamp, sensor_msgs::CameraInfo());
+    bag.write("/odom", stamp, nav_msgs::Odometry());
+    bag.close();
+    bag.open(file_, rosbag::bagmode::Read);
+    NodeConfig config;
+    return chooseTopics(bag, {}, BagTopics(), &config).depth_topic;
+  }
+
+ private:
+  std::string file_;
+};
+
+TEST_F(BagTopicsTest, TellsDepthImagesFromColourImages) {
+  for (const std::string depth : {"16UC1", "mono16", "32FC1"}) {
+    EXPECT_EQ(chosen({{"/color", "rgb8"}, {"/depth", depth}, {"/left", "mono8"}}), "/depth");
+  }
+}
+
+TEST_F(BagTopicsTest, SaysWhatItFoundInsteadOfDepthImages) {
+  try {
+    chosen({{"/color", "rgb8"}});
+    ADD_FAILURE() << "a colour image was taken for a depth image";
+  } catch (const std::invalid_argument& error) {
+    for (const std::string part : {"no depth images", "/color", "rgb8"}) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(RunReportTest, HasTheDocumentedKeysAndFigures) {

@@ -82,13 +82,23 @@ TEST(DecodeDepthImageTest, SkipsPaddingAtTheEndOfRows) {
   expectPixels<float>(decodeDepthImage(makeImage<float>("32FC1", 8)));
 }
 
-TEST(DecodeDepthImageTest, SwapsTheBytesOfForeignImages) {
-  sensor_msgs::ImagePtr image = makeImage<std::uint16_t>("16UC1");
-  image->is_bigendian = !image->is_bigendian;
-  for (std::size_t i = 0; i < image->data.size(); i += 2) {
-    std::swap(image->data[i], image->data[i + 1]);
+TEST(DecodeDepthImageTest, RowsMayBeginAtAnyByte) {
+  for (const std::uint32_t padding : {1u, 3u}) {
+    expectPixels<std::uint16_t>(decodeDepthImage(makeImage<std::uint16_t>("16UC1", padding)));
+    expectPixels<float>(decodeDepthImage(makeImage<float>("32FC1", padding)));
   }
-  expectPixels<std::uint16_t>(decodeDepthImage(image));
+}
+
+TEST(DecodeDepthImageTest, SwapsTheBytesOfForeignImages) {
+  for (const std::uint32_t padding : {0u, 1u}) {
+    sensor_msgs::ImagePtr image = makeImage<std::uint16_t>("16UC1", padding);
+    image->is_bigendian = !image->is_bigendian;
+    for (std::uint32_t v = 0; v < kHeight; ++v) {
+      std::uint8_t* row = &image->data[v * image->step];
+      for (std::uint32_t u = 0; u < kWidth; ++u) std::swap(row[2 * u], row[2 * u + 1]);
+    }
+    expectPixels<std::uint16_t>(decodeDepthImage(image));
+  }
 }
 
 TEST(DecodeDepthImageTest, RefusesOtherEncodings) {
@@ -108,7 +118,7 @@ TEST(DecodeDepthImageTest, RefusesSizesThatContradictEachOther) {
   refuse("no pixels", [](sensor_msgs::Image* image) { image->width = 0; });
   refuse("no pixels", [](sensor_msgs::Image* image) { image->height = 0; });
   refuse("step", [](sensor_msgs::Image* image) { image->step -= 2; });
-  refuse("step", [](sensor_msgs::Image* image) { image->step += 1; });
+  refuse("data", [](sensor_msgs::Image* image) { image->step += 1; });
   refuse("data", [](sensor_msgs::Image* image) { image->data.pop_back(); });
   refuse("data", [](sensor_msgs::Image* image) { image->data.clear(); });
   refuse("data", [](sensor_msgs::Image* image) { image->data.push_back(0); });

@@ -99,5 +99,15 @@ TEST_F(MapMessagesTest, HandleMessageIsAPlainMapInfoOnTheWire) {
   EXPECT_EQ(received.handle, nullptr);
 }
 
+TEST_F(MapMessagesTest, HandleMessageFindsTheHandleOfItsProcess) {
+  MapHandleMessage message;
+  message.info = toMapInfo(snapshot(), "/of_this_process", "map");
+  const auto handle = std::make_shared<const MapHandle>("/of_this_process");
+  MapRegistry::add(handle);
+  MapHandleMessage received;
+  ros::serialization::deserializeMessage(ros::serialization::serializeMessage(message), received);
+  EXPECT_EQ(received.handle, handle);
+}
+
 }  // namespace
 }  // namespace fiimap

@@ -55,7 +55,8 @@ void expectPose(const ResolvedPose& pose, const Eigen::Vector3d& sensor_W,
   ASSERT_EQ(pose.state, State::kFound) << pose.why.text();
   EXPECT_TRUE(pose.T_W_S.translation().isApprox(sensor_W, kTolerance))
       << pose.T_W_S.translation().transpose();
-  EXPECT_TRUE(pose.vehicle_W.isApprox(vehicle_W, kTolerance)) << pose.vehicle_W.transpose();
+  EXPECT_TRUE(pose.T_W_B.translation().isApprox(vehicle_W, kTolerance))
+      << pose.T_W_B.translation().transpose();
 }
 
 void expectMissing(const ResolvedPose& pose, State state, DropReason reason) {

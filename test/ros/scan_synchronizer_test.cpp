@@ -174,10 +174,15 @@ TEST_F(ScanSynchronizerTest, ALoopingBagStartsAnewWhenScansJumpBack) {
   addCloud(2.2);
   addCloud(2.6);
   addCloud(0.02);
+  EXPECT_EQ(diary_.events, Events{"scan"});
+  EXPECT_EQ(synchronizer_->waiting(), 2u);
+  addCloud(0.04);
   EXPECT_EQ(diary_.events, (Events{"scan", "time_jump", "jump"}));
+  EXPECT_EQ(synchronizer_->waiting(), 2u);
   addPoses(0.0, 0.1);
-  EXPECT_EQ(diary_.events.back(), "scan");
-  EXPECT_NEAR(diary_.scans.back().pose.T_W_S.translation().x(), 0.02, 1e-6);
+  EXPECT_EQ(diary_.events, (Events{"scan", "time_jump", "jump", "scan", "scan"}));
+  EXPECT_NEAR(diary_.scans[1].pose.T_W_S.translation().x(), 0.02, 1e-6);
+  EXPECT_NEAR(diary_.scans[2].pose.T_W_S.translation().x(), 0.04, 1e-6);
 }
 
 TEST_F(ScanSynchronizerTest, ALoopingBagStartsAnewWhenPosesJumpBack) {
@@ -187,6 +192,57 @@ TEST_F(ScanSynchronizerTest, ALoopingBagStartsAnewWhenPosesJumpBack) {
   EXPECT_EQ(diary_.events, (Events{"time_jump", "jump"}));
   addCloud(0.2);
   EXPECT_EQ(diary_.events, (Events{"time_jump", "jump", "scan"}));
+}
+
+TEST_F(ScanSynchronizerTest, ASingleScanWithAWrongStampIsDroppedAlone) {
+  for (const double wrong : {900.0, -900.0}) {
+    useConfig(cloudConfig());
+    diary_ = Diary();
+    addPoses(0.0, 0.5);
+    for (const double seconds : {0.1, wrong, 0.2, 0.3}) addCloud(seconds);
+    EXPECT_EQ(diary_.events, (Events{"scan", "stale_stamp", "scan", "scan"})) << wrong;
+  }
+}
+
+TEST_F(ScanSynchronizerTest, AWrongStampCostsNoScanThatWaits) {
+  addPose(0.0);
+  addCloud(0.02);
+  addCloud(900.0);
+  addPose(0.03);
+  EXPECT_EQ(diary_.events, Events{"scan"});
+}
+
+TEST_F(ScanSynchronizerTest, ASinglePoseWithAWrongStampIsRefusedAlone) {
+  for (const double wrong : {900.0, -900.0}) {
+    useConfig(cloudConfig());
+    diary_ = Diary();
+    addPoses(0.0, 0.24);
+    addPose(wrong);
+    addPoses(0.25, 0.5);
+    EXPECT_EQ(synchronizer_->poses().refusedPoses(), 1u) << wrong;
+    addCloud(0.22);
+    EXPECT_EQ(diary_.events, Events{"scan"}) << wrong;
+  }
+}
+
+TEST_F(ScanSynchronizerTest, TimeGoesOnAfterAPauseOfAllInput) {
+  addPoses(0.0, 0.5);
+  addCloud(0.1);
+  addCloud(60.1);
+  addPoses(60.0, 60.5);
+  addCloud(60.2);
+  EXPECT_EQ(diary_.events, (Events{"scan", "scan", "scan"}));
+}
+
+TEST_F(ScanSynchronizerTest, ADoubtfulScanExpires) {
+  addPoses(0.0, 0.5);
+  addCloud(0.1);
+  Moment moment{at(10.0), std::chrono::steady_clock::time_point()};
+  addCloud(900.0, moment);
+  moment.ros = at(11.0);
+  moment.steady += std::chrono::seconds(1);
+  synchronizer_->expire(moment);
+  EXPECT_EQ(diary_.events, (Events{"scan", "stale_stamp"}));
 }
 
 TEST_F(ScanSynchronizerTest, AStepBackOfLessThanASecondIsNoJump) {

@@ -63,7 +63,7 @@ class BadInputTest(MapTest):
         """Flies until scans are integrated, again."""
         goal = self.listener.newest().integrated + ENOUGH
         self.fly_until(lambda: self.listener.newest().integrated >= goal,
-                       f'integrated scans: {self.listener.dropped()}')
+                       lambda: f'integrated scans: {self.listener.state()}')
 
     def input_status(self):
         return self.listener.diagnostics.get('inputs', DiagnosticStatus())
@@ -77,7 +77,8 @@ class BadInputTest(MapTest):
             status = self.input_status()
             return (self.listener.input_count(key) >= goal and status.level != status.OK
                     and all(word in status.message for word in words))
-        self.fly_until(is_told, f'{reason} in diagnostics, with {words}', **changes)
+        self.fly_until(is_told, lambda: f'{reason} in diagnostics, with {words}: '
+                                        f'{self.input_status()}', **changes)
 
     def check(self, reason, words, **changes):
         self.start_vehicle()
@@ -142,7 +143,27 @@ class BadInputTest(MapTest):
         self.check('no_extrinsics', ["'elsewhere'", 'static transform'],
                    image=changed(header__frame_id='elsewhere'))
 
+    def test_one_image_from_the_future(self):
+        self.start_vehicle()
+        self.fly_well()
+        self.vehicle.fly(image=changed(header__stamp=rospy.Time(self.vehicle.time + 100.0)))
+        self.fly_well()
+        self.assertEqual(self.listener.dropped().get('stale_stamp'), 1)
+        self.assertNotIn('the map was forgotten', self.node.output())
+        self.check_end()
+
     # Poses
+
+    def test_one_pose_from_the_future(self):
+        self.start_vehicle()
+        self.fly_well()
+        number = itertools.count()
+        future = changed(header__stamp=rospy.Time(self.vehicle.time + 100.0))
+        self.vehicle.fly(odometry=lambda pose: future(pose) if next(number) == 0 else pose)
+        self.fly_well()
+        wait_for(lambda: self.listener.input_count('poses refused') == 1, 'the count of poses')
+        self.assertNotIn('the map was forgotten', self.node.output())
+        self.check_end()
 
     def test_odometry_that_is_not_finite(self):
         self.check('bad_pose', ['finite'],

@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """Subscribers in other processes take nothing from the readers in the nodelet manager."""
+import xmlrpc.client
+
 import rosbag
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
 from visualization_msgs.msg import Marker
 
@@ -14,9 +17,11 @@ from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, program, wait_for
 
 TOPICS = {
     '/map/occupied': PointCloud2, '/map/inflated': PointCloud2, '/map/statistics': Statistics,
-    '/map/map_handle': MapInfo, '/map/window': Marker, '/diagnostics': DiagnosticArray,
+    '/map/map_handle': MapInfo, '/map/window': Marker, '/map/path': Path,
+    '/map/vehicle': Marker, '/diagnostics': DiagnosticArray,
 }
 SCANS = 20
+PARAMETERS = {**PATIENT_QUEUES, 'resolution': 0.1}
 
 
 class OtherProcessesTest(ManagerTest):
@@ -31,30 +36,38 @@ class OtherProcessesTest(ManagerTest):
         return messages, subscribers
 
     def record(self):
-        """Starts recording every topic, and waits until the recorder is connected to all."""
+        """Starts recording every topic, and waits until the manager is connected to the recorder
+        on all."""
         file = self.directory / 'record.bag'
         recorder = self.start(program('rosbag', 'record'), '-O', file, '__name:=recorder', *TOPICS)
-        master = rospy.get_master()
+        manager = xmlrpc.client.ServerProxy(rospy.get_master().lookupNode('/manager')[2])
 
-        def is_subscribed():
-            _, subscribers, _ = master.getSystemState()[2]
-            return all('/recorder' in nodes for topic, nodes in subscribers if topic in TOPICS)
-        wait_for(is_subscribed, 'the recorder')
+        def recorded_topics():
+            _, _, connections = manager.getBusInfo(rospy.get_name())
+            return {topic for _, destination, direction, _, topic, *_ in connections
+                    if (destination, direction) == ('/recorder', 'o')}
+        wait_for(lambda: set(TOPICS) <= recorded_topics(),
+                 lambda: f'the recorder, which has {recorded_topics()}')
         return recorder, file
 
-    def test_handle_reaches_nodelets_while_others_listen_and_record(self):
+    def write_bag(self):
         form = ('depth', 'odometry')
-        bag = make_bag_variants.write_variants(FLIGHT_BAG, self.directory, SCANS, [form])[form]
+        return make_bag_variants.write_variants(FLIGHT_BAG, self.directory, SCANS, [form])[form]
+
+    def test_handle_reaches_nodelets_while_others_listen_and_record(self):
         self.load_probe('probe')
         messages, subscribers = self.subscribe()
-        _, listener = self.load_map({**PATIENT_QUEUES, 'resolution': 0.1})
+        _, listener = self.load_map(PARAMETERS)
         wait_for(lambda: all(s.get_num_connections() > 0 for s in subscribers), 'connections')
         wait_for(lambda: self.report('probe')['publishers'] == 1, 'the connection of the probe')
         recorder, recorded_file = self.record()
-        self.play(bag)
+        diagnostics = len(messages['/diagnostics'])
+        self.play(self.write_bag())
         listener.wait_for_integrated(SCANS)
         for topic, received in messages.items():
             wait_for(lambda received=received: received, topic)
+        # They come without scans, and the recorder must have had time for one of them.
+        wait_for(lambda: len(messages['/diagnostics']) > diagnostics + 1, 'diagnostics')
         wait_for(lambda: len(messages['/map/map_handle']) == SCANS, 'map infos')
         wait_for(lambda: len(messages['/map/statistics']) == SCANS, 'statistics')
 
@@ -64,6 +77,20 @@ class OtherProcessesTest(ManagerTest):
         self.check_infos(messages['/map/map_handle'], messages['/map/statistics'])
         self.assertEqual(recorder.interrupt(), 0, recorder.output())
         self.check_record(recorded_file)
+
+    def test_late_subscribers_get_the_newest(self):
+        _, listener = self.load_map(PARAMETERS)
+        self.play(self.write_bag())
+        newest = listener.wait_for_integrated(SCANS)
+        messages, _ = self.subscribe()
+        for topic, received in messages.items():
+            wait_for(lambda received=received: received, f'{topic} after the recording')
+        self.assertEqual(messages['/map/statistics'], [newest])
+        self.assertEqual([info.sequence for info in messages['/map/map_handle']],
+                         [newest.sequence])
+        for topic in ('/map/occupied', '/map/inflated', '/map/window', '/map/path', '/map/vehicle'):
+            for message in messages[topic]:
+                self.assertEqual(message.header.stamp, newest.header.stamp, topic)
 
     def check_infos(self, infos, statistics):
         self.assertEqual([info.sequence for info in infos], [s.sequence for s in statistics])

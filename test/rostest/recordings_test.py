@@ -10,7 +10,7 @@ import unittest
 import rospy
 import rostest
 
-from rostest_support import PATIENT_QUEUES, MapTest, cut, recording, wait_for
+from rostest_support import PATIENT_QUEUES, MapTest, cut, recording
 
 SCANS = 10
 POINTS = {**PATIENT_QUEUES, 'sensor': 'points'}
@@ -44,9 +44,10 @@ class StreetTest(MapTest):
 
     def test_launch_file(self):
         listener = self.listen('fiimap')
-        launch = self.start('roslaunch', 'fiimap', 'lidar.launch', f'bag:={self.cut()}')
-        wait_for(lambda: listener.input_count('scans received') == SCANS, 'clouds of the street')
-        self.assertGreater(listener.newest().occupied, 1000)
+        # With names of topics, playing waits for their subscribers.
+        launch = self.start('roslaunch', 'fiimap', 'lidar.launch', f'bag:={self.cut()}',
+                            f'bag_topics:={self.SCAN_TOPIC} /odom /tf_static')
+        self.assertGreater(listener.wait_for_received(SCANS).occupied, 1000)
         self.assertEqual(set(listener.dropped()) - {'overload'}, set(), launch.output())
         self.assertEqual(launch.interrupt(), 0, launch.output())
 

@@ -70,14 +70,16 @@ def program(package, name):
 
 
 def wait_for(condition, what):
-    """Waits until the condition holds and returns its value."""
+    """Waits until the condition holds and returns its value.
+
+    What is waited for is a text, or a function that tells more when the waiting was in vain."""
     end = time.monotonic() + PATIENCE
     while not rospy.is_shutdown() and time.monotonic() < end:
         value = condition()
         if value:
             return value
         time.sleep(POLL)
-    raise AssertionError(f'waited in vain for {what}')
+    raise AssertionError(f'waited in vain for {what() if callable(what) else what}')
 
 
 class Process:
@@ -160,11 +162,25 @@ class Map:
         values = {value.key: value.value for value in status.values} if status else {}
         return int(values.get(key, 0))
 
+    def state(self):
+        return f'{self.newest().integrated}, {self.dropped()}, {self.diagnostics.get("inputs")}'
+
     def wait_for_integrated(self, scans):
         """Waits until so many scans were integrated, and returns the newest statistics."""
         wait_for(lambda: self.newest().integrated >= scans,
-                 f'{scans} integrated scans: {self.newest().integrated}, {self.dropped()}, '
-                 f'{self.diagnostics.get("inputs")}')
+                 lambda: f'{scans} integrated scans: {self.state()}')
+        return self.newest()
+
+    def wait_for_received(self, scans):
+        """Waits until so many scans came and none of them is on its way into the map or out of it.
+
+        Returns the newest statistics."""
+        def are_done():
+            waiting = self.input_count('scans waiting')
+            integrated = self.input_count('scans integrated')
+            return (self.input_count('scans received') == scans and waiting == 0
+                    and self.newest().integrated == integrated > 0)
+        wait_for(are_done, lambda: f'{scans} received scans: {self.state()}')
         return self.newest()
 
     def wait_for_clouds(self):

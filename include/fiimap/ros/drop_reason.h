@@ -8,7 +8,7 @@ namespace fiimap {
 /// Why a scan did not become part of the map.
 enum class DropReason {
   kZeroStamp,      ///< the message has no stamp
-  kStaleStamp,     ///< not newer than the scan before
+  kStaleStamp,     ///< not newer than the scan before, or alone far from all others
   kTimeJump,       ///< waited while the stamps jumped back
   kQueueFull,      ///< displaced by newer scans while it waited for its pose
   kPoseTimeout,    ///< no pose at or after its stamp came in time

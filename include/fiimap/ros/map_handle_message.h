@@ -11,10 +11,10 @@
 
 namespace fiimap {
 
-/// What the mapping nodelet publishes on ~map_handle at every update. A nodelet in the same manager
-/// that subscribes with MapHandleMessage::ConstPtr receives the very object with its handle, and
-/// may ask the handle for the newest snapshot whenever it likes, also between messages. On the wire
-/// it is a plain fiimap/MapInfo: subscribers in other processes, and records in bags, have a null
+/// What the mapping nodelet publishes on ~map_handle at every update, latched. A nodelet of the
+/// same manager that subscribes with MapHandleMessage::ConstPtr receives the handle, early or late,
+/// and may ask it for the newest snapshot whenever it likes, also between messages. On the wire it
+/// is a plain fiimap/MapInfo: subscribers in other processes, and readers of bags, have a null
 /// handle.
 struct MapHandleMessage {
   using Ptr = boost::shared_ptr<MapHandleMessage>;
@@ -74,6 +74,8 @@ struct Serializer<fiimap::MapHandleMessage> {
   template <typename Stream>
   static void read(Stream& stream, fiimap::MapHandleMessage& message) {
     stream.next(message.info);
+    // ROS sends the latched message as bytes to late subscribers of the same process, too.
+    message.handle = fiimap::MapRegistry::find(message.info.id);
   }
   static std::uint32_t serializedLength(const fiimap::MapHandleMessage& message) {
     return serializationLength(message.info);

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <fiimap/MapInfo.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Path.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/Marker.h>
 
+#include <Eigen/Geometry>
 #include <string>
 
+#include "fiimap/ros/vehicle_path.h"
 #include "fiimap/snapshot.h"
 
 namespace fiimap {
@@ -26,5 +30,15 @@ sensor_msgs::PointCloud2 toPointCloud(const Snapshot& snapshot, Plane plane,
 /// \param name namespace of the marker.
 visualization_msgs::Marker toOutline(const VoxelBox& box, const Snapshot& snapshot,
                                      const std::string& map_frame, const std::string& name);
+
+/// \param T_W_B body to the frame of the header.
+geometry_msgs::PoseStamped toPose(const Eigen::Isometry3d& T_W_B, const std_msgs::Header& header);
+
+/// Of an empty path: no poses and no stamp.
+nav_msgs::Path toPath(const VehiclePath& path, const std::string& map_frame);
+
+/// Axes of the vehicle's body at its newest pose: x red, y green, z blue. Of an empty path: a
+/// marker that takes those away.
+visualization_msgs::Marker toVehicleMarker(const VehiclePath& path, const std::string& map_frame);
 
 }  // namespace fiimap

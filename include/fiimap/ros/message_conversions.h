@@ -18,8 +18,11 @@ struct DecodedDepthImage {
   std::shared_ptr<const void> pixels;
 };
 
+/// Whether images of an encoding are depth images: 16UC1, mono16 or 32FC1.
+bool isDepthEncoding(const std::string& encoding);
+
 /// View of a message of encoding 16UC1, mono16 (depth_scale) or 32FC1 (metres), without a copy when
-/// its byte order is the machine's.
+/// its byte order is the machine's and its rows are a whole number of pixels apart.
 /// \throws InputError (kBadEncoding, kBadImage).
 DecodedDepthImage decodeDepthImage(const sensor_msgs::ImageConstPtr& message);
 

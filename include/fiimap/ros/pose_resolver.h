@@ -27,7 +27,8 @@ struct ResolvedPose {
   State state = State::kPending;
   Drop why;                                                 ///< unless found
   Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();  ///< sensor to world
-  Eigen::Vector3d vehicle_W = Eigen::Vector3d::Zero();      ///< position of the vehicle, m
+  /// Body to world; where no body frame is known, the sensor's.
+  Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();
   /// The sensor is not rotated on its body, or there is no body frame to tell.
   bool sensor_axes_like_body = true;
   double gap = 0.0;  ///< s between the poses around the stamp
@@ -44,6 +45,8 @@ class PoseResolver {
   void add(const geometry_msgs::PoseStamped& pose);
   void add(const geometry_msgs::TransformStamped& transform);
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
+  /// Counts a pose message that is not to be used.
+  void refuse(const Drop& why);
   /// Forgets poses and moving transforms.
   void clear();
 

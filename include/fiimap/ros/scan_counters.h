@@ -15,6 +15,9 @@ struct ScanCounters {
   std::uint64_t integrated = 0;
   std::uint64_t waiting = 0;  ///< counted where they wait, so that a lost scan shows
   std::array<std::uint64_t, kDropReasonCount> dropped_by_reason{};
+  std::uint64_t refused_poses = 0;  ///< pose messages that could not be used; no scans
+  std::uint64_t displaced_inputs =
+      0;                  ///< poses, transforms and camera infos that gave way to newer
   std::string last_drop;  ///< text of the newest drop; empty when there was none
 
   void countDrop(const Drop& drop);

@@ -5,7 +5,9 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <chrono>
+#include <cstddef>
 #include <deque>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -15,10 +17,13 @@
 #include "fiimap/ros/drop_reason.h"
 #include "fiimap/ros/node_config.h"
 #include "fiimap/ros/pose_resolver.h"
+#include "fiimap/ros/stamp_guard.h"
 
 namespace fiimap {
 
 using ScanMessage = std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::PointCloud2ConstPtr>;
+using PoseMessage =
+    std::variant<nav_msgs::Odometry, geometry_msgs::PoseStamped, geometry_msgs::TransformStamped>;
 
 /// A moment by two clocks.
 struct Moment {
@@ -31,7 +36,8 @@ struct SynchronizedScan {
   ScanMessage message;
   PinholeIntrinsics intrinsics;  ///< of images only
   ScanPose pose;
-  double pose_gap = 0.0;  ///< s between the poses around the scan
+  Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< vehicle's body to world
+  double pose_gap = 0.0;                                    ///< s between the poses around the scan
 };
 
 /// Receives what a ScanSynchronizer finds, from within the call that caused it.
@@ -49,16 +55,16 @@ class ScanListener {
 
 /// Brings scans, poses, transforms and intrinsics together by their stamps, in whatever order they
 /// arrive. Scans wait in a bounded queue until the poses on both sides of their stamp are known.
-/// Each scan ends as exactly one onScan or onDrop. Looks at no clock, so the same messages in the
-/// same order always give the same scans. Not thread-safe.
+/// Each scan ends as exactly one onScan or onDrop. A message whose stamp is far from those before
+/// it waits for the next one, which confirms it (time jumped) or not (the stamp was wrong: it is
+/// dropped). Looks at no clock, so the same messages in the same order always give the same scans.
+/// Not thread-safe.
 class ScanSynchronizer {
  public:
   /// \param config validated; \param listener must outlive the synchronizer.
   ScanSynchronizer(const NodeConfig& config, ScanListener* listener);
 
-  void add(const nav_msgs::Odometry& odometry);
-  void add(const geometry_msgs::PoseStamped& pose);
-  void add(const geometry_msgs::TransformStamped& pose);
+  void add(const PoseMessage& pose);
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
   void add(const sensor_msgs::CameraInfoConstPtr& info);
   /// \param received when the message arrived; matters for expire() only.
@@ -74,7 +80,7 @@ class ScanSynchronizer {
   /// jumps that the stamps do not show yet.
   void restart(const std::string& why);
 
-  std::size_t waiting() const { return waiting_.size(); }
+  std::size_t waiting() const { return waiting_.size() + (doubtful_scan_ ? 1 : 0); }
   const PoseResolver& poses() const { return poses_; }
 
  private:
@@ -89,9 +95,11 @@ class ScanSynchronizer {
     PinholeIntrinsics intrinsics;
   };
 
-  template <typename PoseMessage>
-  void addPose(const PoseMessage& pose);
-  void checkForJump(const ros::Time& stamp, const ros::Time& newest, const std::string& what);
+  void add(const WaitingScan& scan);
+  void enqueue(const WaitingScan& scan);
+  void dropDoubtfulScan();
+  void refuseDoubtfulPose();
+  void restart(const ros::Time& newest, const ros::Time& stamp, const std::string& what);
   void emitReadyScans();
   void emitFront(const Attempt& result);
   void dropFront(const Drop& drop);
@@ -104,7 +112,11 @@ class ScanSynchronizer {
   PoseResolver poses_;
   sensor_msgs::CameraInfoConstPtr camera_info_;
   std::deque<WaitingScan> waiting_;
-  ros::Time newest_scan_;
+  ros::Time newest_scan_;  // that was not dropped at once
+  StampGuard scan_guard_;
+  StampGuard pose_guard_;
+  std::optional<WaitingScan> doubtful_scan_;
+  std::optional<PoseMessage> doubtful_pose_;
   CameraSetupCheck camera_check_;
 };
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fiimap/mapper.h"
+#include "recording.h"
+
+namespace fiimap::bench {
+
+/// A way to make a map of depth images: ours or a baseline.
+class MappingMethod {
+ public:
+  virtual ~MappingMethod() = default;
+
+  /// From the depth image to the map that a planner reads.
+  virtual void integrate(const Frame& frame) = 0;
+  /// Occupied voxels of a box, in no particular order.
+  virtual std::vector<VoxelIndex> occupied(const VoxelBox& box) const = 0;
+};
+
+/// The defaults of the package at another resolution, with an inflation of `reach` voxels.
+MapperConfig configAt(double resolution, int reach, ElementShape shape = ElementShape::kBall);
+
+/// The box around the vehicle that a frame may change.
+VoxelBox updateBox(const MapperConfig& config, const ScanPose& pose);
+
+/// Smallest box that holds the update boxes of all frames: maps that cannot slide need it.
+VoxelBox boxAroundFrames(const MapperConfig& config, const std::vector<Frame>& frames);
+
+// Names of methods.
+constexpr char kFiimap[] = "fiimap";
+constexpr char kEgoStyle[] = "ego";
+constexpr char kEgoStyleAsShipped[] = "ego_invalid_far";
+constexpr char kPerPixel[] = "per_pixel";
+constexpr char kOctomap[] = "octomap";
+
+/// \param frames that will be integrated.
+/// \throws std::invalid_argument for a name that is not among the above.
+std::unique_ptr<MappingMethod> makeMethod(const std::string& name, const MapperConfig& config,
+                                          const std::vector<Frame>& frames);
+
+}  // namespace fiimap::bench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ros/time.h>
+
+namespace fiimap {
+
+/// What the stamp of a message says, seen from those before it on the same topic.
+enum class StampVerdict {
+  kGood,      ///< in order, or late by no more than StampGuard::kJump
+  kDoubtful,  ///< far from all before it: wait for what the next message says
+  kLeap,      ///< time went on further ahead: the doubtful message before it was right
+  kJumpBack,  ///< time began again: the doubtful message before it was right
+};
+
+/// Tells a single wrong stamp from time that really jumped: one stamp that is far from those before
+/// it is doubtful, a second one in a row is believed. Not thread-safe.
+class StampGuard {
+ public:
+  static constexpr double kJump = 1.0;  ///< s; what is nearer is in order or late
+
+  /// After kJumpBack clear() must follow.
+  /// \param other newest good stamp of another topic: near or before it no stamp is too far ahead.
+  StampVerdict judge(const ros::Time& stamp, const ros::Time& other);
+  void clear();
+
+  /// Newest good stamp; zero when there is none.
+  const ros::Time& newest() const { return newest_; }
+
+ private:
+  ros::Time newest_;
+  ros::Time doubtful_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,44 @@
+#include "fiimap/kernels.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace fiimap {
+namespace {
+
+const Kernels& chosenKernels() {
+  const std::vector<const Kernels*> available = availableKernels();
+  const char* const wanted = std::getenv("FIIMAP_SIMD");
+  if (wanted == nullptr || *wanted == '\0') return *available.front();
+  std::string names;
+  for (const Kernels* kernels : available) {
+    if (std::string(kernels->name) == wanted) return *kernels;
+    names += std::string(names.empty() ? "" : ", ") + kernels->name;
+  }
+  throw std::runtime_error("FIIMAP_SIMD is " + std::string(wanted) +
+                           ", this machine has: " + names);
+}
+
+}  // namespace
+
+void RayEnds::reserve(int count) {
+  const std::size_t room = static_cast<std::size_t>(count) + kVectorRoom;
+  if (offset.size() >= room) return;
+  offset.resize(room);
+  bit.resize(room);
+}
+
+void ColumnWalk::reserve(int slabs) {
+  const std::size_t room = static_cast<std::size_t>(2) * slabs + 1 + kVectorRoom;
+  if (column.size() >= room) return;
+  column.resize(room);
+  t.resize(room);
+}
+
+const Kernels& kernels() {
+  static const Kernels& chosen = chosenKernels();
+  return chosen;
+}
+
+}  // namespace fiimap

@@ -1,0 +1,33 @@
+#include "fiimap/ros/stamp_guard.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fiimap/ros/stamps.h"
+
+namespace fiimap {
+
+StampVerdict StampGuard::judge(const ros::Time& stamp, const ros::Time& other) {
+  const ros::Time doubtful = std::exchange(doubtful_, ros::Time());
+  const bool first = newest_.isZero();
+  const bool back = secondsBetween(stamp, newest_) > kJump;
+  const bool ahead = !first && secondsBetween(std::max(newest_, other), stamp) > kJump;
+  if (!back && !ahead) {
+    const bool was_right = doubtful > newest_ && doubtful <= stamp;
+    newest_ = std::max(newest_, stamp);
+    return was_right ? StampVerdict::kLeap : StampVerdict::kGood;
+  }
+  const bool again =
+      back ? !doubtful.isZero() && doubtful < newest_ : doubtful > newest_ && stamp >= doubtful;
+  if (!again) {
+    doubtful_ = stamp;
+    return StampVerdict::kDoubtful;
+  }
+  if (back) return StampVerdict::kJumpBack;
+  newest_ = stamp;
+  return StampVerdict::kLeap;
+}
+
+void StampGuard::clear() { *this = StampGuard(); }
+
+}  // namespace fiimap

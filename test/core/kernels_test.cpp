@@ -1,0 +1,236 @@
+#include "fiimap/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <ostream>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "fiimap/bit_column.h"
+#include "oracle.h"
+
+/// Every instruction set that this machine has computes the same bits as plain C++. That plain C++
+/// is right, the tests of the classes that use it show.
+namespace fiimap {
+
+void PrintTo(const Kernels* kernels, std::ostream* out) { *out << kernels->name; }
+
+namespace {
+
+constexpr int kRounds = 300;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+class KernelsTest : public ::testing::TestWithParam<const Kernels*> {
+ protected:
+  float uniform(double low, double high) {
+    return static_cast<float>(test::uniformReal(random_, low, high));
+  }
+  std::uint64_t randomWord() {
+    const auto half = [&] { return static_cast<std::uint64_t>(random_()); };
+    switch (test::uniformInt(random_, 0, 3)) {
+      case 0:
+        return 0;
+      case 1:
+        return ~std::uint64_t{0};
+      default:
+        return half() << 32 | half();
+    }
+  }
+
+  const Kernels& tested_ = *GetParam();
+  const Kernels& plain_ = plainKernels();
+  test::Random random_{81};
+};
+
+bool sameFloat(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+TEST_P(KernelsTest, ReadDepths) {
+  for (int round = 0; round < kRounds; ++round) {
+    const int step = test::uniformInt(random_, 1, 5);
+    const int samples = test::uniformInt(random_, 0, 70);
+    const int shift = test::uniformInt(random_, 0, 1);  // rows need not be aligned
+    // No byte after the last sample, so that a sanitizer sees who reads too far.
+    std::vector<std::uint8_t> pixels(shift + (samples > 0 ? 2 * (step * (samples - 1) + 1) : 0));
+    for (std::uint8_t& byte : pixels) {
+      byte = test::chance(random_, 0.3) ? 0xff : test::chance(random_, 0.3) ? 0 : random_();
+    }
+    std::vector<float> expected(samples), depth(samples);
+    plain_.readDepths(pixels.data() + shift, step, samples, 0.001f, expected.data());
+    tested_.readDepths(pixels.data() + shift, step, samples, 0.001f, depth.data());
+    for (int i = 0; i < samples; ++i) ASSERT_TRUE(sameFloat(depth[i], expected[i])) << i;
+  }
+}
+
+TEST_P(KernelsTest, ProjectRow) {
+  for (int round = 0; round < kRounds; ++round) {
+    const int samples = test::uniformInt(random_, 0, 100);
+    const int room = samples + kVectorRoom;
+    std::vector<float> depth(room), ray_x(room), ray_y(room), ray_z(room), length_2(room);
+    const double odd_share = test::uniformInt(random_, 0, 2) * 0.3;
+    for (int i = 0; i < samples; ++i) {
+      constexpr float kOdd[] = {kNan, 0.1f, 20.0f, std::numeric_limits<float>::infinity()};
+      depth[i] = test::chance(random_, odd_share) ? kOdd[test::uniformInt(random_, 0, 3)]
+                                                  : uniform(0.5, 4.0);
+      ray_x[i] = uniform(-1.0, 1.0);
+      ray_y[i] = uniform(-1.0, 1.0);
+      ray_z[i] = uniform(-1.0, 1.0);
+      length_2[i] = uniform(0.0, 1.0);
+    }
+    const DepthRow row{
+        depth.data(), samples, ray_x.data(), ray_y.data(), ray_z.data(), length_2.data(), 0.25f,
+        -0.5f,        1.0f,    1.25f,        0.3f,         8.0f,         0.09f,           30.0f};
+    for (const bool list_invalid : {false, true}) {
+      const auto run = [&](const Kernels& kernels) {
+        std::vector<float> points[3];
+        for (auto& axis : points) axis.resize(room);
+        std::vector<std::int32_t> others(room);
+        const RowCount count = kernels.projectRow(
+            row, list_invalid, points[0].data(), points[1].data(), points[2].data(), others.data());
+        for (auto& axis : points) axis.resize(count.returns);
+        others.resize(count.others);
+        return std::make_tuple(points[0], points[1], points[2], others);
+      };
+      ASSERT_EQ(run(tested_), run(plain_)) << "samples " << samples;
+    }
+  }
+}
+
+TEST_P(KernelsTest, ListEnds) {
+  for (int round = 0; round < kRounds; ++round) {
+    const int count = test::uniformInt(random_, 0, 100);
+    std::vector<float> offset[3];
+    const float spread = test::chance(random_, 0.5) ? 0.05f : 2.0f;
+    for (auto& axis : offset) {
+      axis.resize(count + kVectorRoom);
+      for (int i = 0; i < count; ++i)
+        axis[i] = test::chance(random_, 0.05) ? 0.0f : uniform(-spread, spread);
+    }
+    const EndPoints points{offset[0].data(),
+                           offset[1].data(),
+                           offset[2].data(),
+                           count,
+                           10.0f,
+                           {10.25f, 5.5f, 15.75f},
+                           {20, 30, 100},
+                           2};
+    const auto run = [&](const Kernels& kernels) {
+      RayEnds ends;
+      kernels.listEnds(points, &ends);
+      std::set<std::pair<int, int>> set;
+      for (int k = 0; k < ends.size; ++k) set.emplace(ends.offset[k], ends.bit[k]);
+      EXPECT_TRUE(spread > 0.1f || count < 50 || ends.size < count) << "leaves something out";
+      return set;
+    };
+    ASSERT_EQ(run(tested_), run(plain_));
+  }
+}
+
+ColumnLine randomLine(test::Random& random) {
+  ColumnLine line;
+  line.slabs = test::uniformInt(random, 1, 90);
+  const float minor_origin = static_cast<float>(test::uniformReal(random, 30.0, 60.0));
+  const float slope = static_cast<float>(test::uniformReal(random, -0.3, 0.3));
+  const float length = line.slabs - 0.25f;
+  line.start_t = test::chance(random, 0.2) ? 0.25f : 0.0f;
+  line.first_border = -0.25f;
+  line.major_step = 1.0f;
+  line.t_per_major = line.slabs > 1 ? 1.0f / length : 0.0f;
+  line.minor_origin = minor_origin;
+  line.minor_direction = slope * length;
+  line.minor_step = slope > 0.0f ? 1 : -1;
+  line.minor_border = (slope > 0.0f ? 1.0f : 0.0f) - minor_origin;
+  line.t_per_minor = 1.0f / line.minor_direction;
+  line.last_minor_cell = 99;
+  line.first_column = 200;
+  line.major_offset = 200;
+  line.minor_offset = 2;
+  return line;
+}
+
+TEST_P(KernelsTest, Walk) {
+  for (int round = 0; round < kRounds; ++round) {
+    const ColumnLine line = randomLine(random_);
+    ColumnWalk expected, walk;
+    plain_.walk(line, &expected);
+    tested_.walk(line, &walk);
+    ASSERT_EQ(walk.size, expected.size);
+    ASSERT_GE(walk.size, line.slabs);
+    for (int k = 0; k < walk.size; ++k) ASSERT_EQ(walk.column[k], expected.column[k]) << k;
+    for (int k = 0; k <= walk.size; ++k) ASSERT_EQ(walk.t[k], expected.t[k]) << k;
+  }
+}
+
+TEST_P(KernelsTest, FreeFan) {
+  for (int round = 0; round < kRounds; ++round) {
+    constexpr int kWords = 3;
+    constexpr int kColumns = 100;
+    const int height = test::uniformInt(random_, 1, kWords * kWordBits);
+    std::vector<std::int32_t> column(kColumns + kVectorRoom);
+    std::vector<float> t(kColumns + 1 + kVectorRoom);
+    for (int k = 0; k < kColumns; ++k) column[k] = k * kWords;
+    for (int k = 0; k <= kColumns; ++k) t[k] = static_cast<float>(k) / kColumns;
+    FanPart fan;
+    fan.column = column.data();
+    fan.columns = test::uniformInt(random_, 0, kColumns);
+    fan.origin_z = uniform(-10.0, height + 10.0);
+    fan.rise_low = uniform(-height, height);
+    fan.rise_high = fan.rise_low + uniform(0.0, 20.0);
+    fan.t_low = t.data() + (fan.rise_low < 0.0f ? 1 : 0);
+    fan.t_high = t.data() + (fan.rise_high < 0.0f ? 0 : 1);
+    fan.lowest = fan.origin_z + std::min(0.0f, fan.rise_low);
+    fan.highest = fan.origin_z + std::max(0.0f, fan.rise_high);
+    std::vector<std::uint64_t> expected(kWords * kColumns);
+    for (std::uint64_t& word : expected) word = test::chance(random_, 0.5) ? 0 : randomWord();
+    std::vector<std::uint64_t> free = expected;
+    plain_.freeFan(fan, height, expected.data());
+    tested_.freeFan(fan, height, free.data());
+    ASSERT_EQ(free, expected);
+  }
+}
+
+TEST_P(KernelsTest, Observe) {
+  const LogOdds l{MapperConfig()};
+  for (int round = 0; round < kRounds; ++round) {
+    const int words = test::uniformInt(random_, 0, 5);
+    std::vector<std::uint64_t> hit(words), free(words), known(words), occupied(words);
+    std::vector<std::int8_t> values(words * kWordBits);
+    for (std::int8_t& value : values) {
+      value = static_cast<std::int8_t>(test::uniformInt(random_, l.min, l.max));
+    }
+    for (int w = 0; w < words; ++w) {
+      hit[w] = randomWord();
+      free[w] = randomWord() & ~hit[w];
+      known[w] = randomWord();
+      occupied[w] = randomWord();
+    }
+    std::vector<std::uint64_t> expected_occupied = occupied;
+    std::vector<std::int8_t> expected = values;
+    plain_.observe(l, words, hit.data(), free.data(), known.data(), expected_occupied.data(),
+                   expected.data());
+    tested_.observe(l, words, hit.data(), free.data(), known.data(), occupied.data(),
+                    values.data());
+    ASSERT_EQ(occupied, expected_occupied);
+    for (int i = 0; i < words * kWordBits; ++i) {
+      const std::uint64_t has_value =
+          hit[i / kWordBits] | free[i / kWordBits] | known[i / kWordBits];
+      if (((has_value >> (i % kWordBits)) & 1u) == 0) continue;
+      ASSERT_EQ(values[i], expected[i]) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, KernelsTest, ::testing::ValuesIn(availableKernels()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+TEST(KernelsTest, PlainOnesAreTheLast) {
+  ASSERT_FALSE(availableKernels().empty());
+  EXPECT_EQ(availableKernels().back(), &plainKernels());
+}
+
+}  // namespace
+}  // namespace fiimap
