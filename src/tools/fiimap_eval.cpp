@@ -3,9 +3,10 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "accuracy_command.h"
 #include "run_command.h"
+#include "truth_command.h"
 
 namespace {
 
@@ -13,27 +14,32 @@ namespace po = boost::program_options;
 
 constexpr char kUsage[] =
     "Offline evaluation of fiimap on recorded data\n\n"
-    "  fiimap_eval run BAG [options]   builds the map of a bag as the nodelet would, and prints "
-    "what "
-    "it cost\n"
-    "  fiimap_eval parameters          lists the parameters of map and node: name, default, unit, "
-    "allowed values, meaning\n\n"
+    "  fiimap_eval run BAG [options]       builds the map of a bag as the nodelet would, and "
+    "prints\n"
+    "                                      what it cost\n"
+    "  fiimap_eval accuracy BAG [options]  holds scans out and compares them with the map of the\n"
+    "                                      others\n"
+    "  fiimap_eval truth BAG [options]     compares the map with the exact scene of a synthetic\n"
+    "                                      recording\n"
+    "  fiimap_eval parameters              lists the parameters of map and node: name, default,\n"
+    "                                      unit, allowed values, meaning\n\n"
     "Topics that are not found by type are set like parameters: depth_topic, camera_info_topic, "
     "points_topic, pose_topic.\n\n";
 
-struct CommandLine {
-  std::string command;
-  fiimap::RunOptions run;
-};
-
-po::options_description describeOptions(fiimap::RunOptions* run) {
-  po::options_description options("Options of run");
+po::options_description describe(const std::string& title, fiimap::InputOptions* input) {
+  po::options_description options(title);
   options.add_options()("help,h", "this text")("config",
-                                               po::value(&run->config)->value_name("FILE"),
+                                               po::value(&input->config)->value_name("FILE"),
                                                "parameters (YAML, as for the nodelet)")(
-      "set", po::value(&run->settings)->value_name("NAME=VALUE")->composing(),
+      "set", po::value(&input->settings)->value_name("NAME=VALUE")->composing(),
       "a parameter, after those of the file; may be repeated")(
-      "json", po::value(&run->json)->value_name("FILE"), "write the figures to this file")(
+      "json", po::value(&input->json)->value_name("FILE"), "write the figures to this file");
+  return options;
+}
+
+po::options_description describe(fiimap::RunOptions* run) {
+  po::options_description options = describe("Options of run", &run->input);
+  options.add_options()(
       "save", po::value(&run->save)->value_name("PREFIX"),
       "write the final map to PREFIX_occupied.pcd, PREFIX_inflated.pcd and PREFIX.bt")(
       "verify", po::value(&run->verify)->value_name("N"),
@@ -41,44 +47,89 @@ po::options_description describeOptions(fiimap::RunOptions* run) {
   return options;
 }
 
-/// \return an empty command when help was asked for.
-CommandLine parse(int argc, char** argv) {
-  CommandLine line;
-  const po::options_description visible = describeOptions(&line.run);
+po::options_description describe(fiimap::AccuracyOptions* accuracy) {
+  po::options_description options = describe("Options of accuracy", &accuracy->input);
+  options.add_options()("resolutions",
+                        po::value(&accuracy->resolutions)->multitoken()->value_name("M..."),
+                        "voxel sizes, one map each; default: that of the configuration")(
+      "split", po::value(&accuracy->split)->value_name("FILE"),
+      "lines \"INDEX build\" or \"INDEX test\": which scans are held out")(
+      "folds", po::value(&accuracy->folds)->value_name("N"),
+      "without --split: hold out every N-th scan (10)")(
+      "fold", po::value(&accuracy->fold)->value_name("K"),
+      "those with index % N == K; default: the last")(
+      "held-out-step", po::value(&accuracy->held_out_step)->value_name("PIXELS"),
+      "look at every n-th pixel of every n-th row of the held-out scans (4)")(
+      "csv", po::bool_switch(&accuracy->csv), "print the table as CSV");
+  return options;
+}
+
+po::options_description describe(fiimap::TruthOptions* truth) {
+  po::options_description options = describe("Options of truth", &truth->input);
+  options.add_options()("scene", po::value(&truth->scene)->value_name("FILE"),
+                        "the exact scene (data/README.md)")(
+      "resolutions", po::value(&truth->resolutions)->multitoken()->value_name("M..."),
+      "voxel sizes, one map each; default: that of the configuration")(
+      "snapshots", po::value(&truth->snapshots)->value_name("N"),
+      "compare the map this often, evenly over the recording (10)")(
+      "csv", po::bool_switch(&truth->csv), "print the table as CSV");
+  return options;
+}
+
+/// Reads what follows the command.
+/// \return false when help was asked for, and given.
+bool parse(int argc, char** argv, const po::options_description& visible,
+           fiimap::InputOptions* input) {
   po::options_description all;
-  all.add(visible).add_options()("command", po::value(&line.command))("bag",
-                                                                      po::value(&line.run.bag));
+  all.add(visible).add_options()("command", po::value<std::string>())("bag",
+                                                                      po::value(&input->bag));
   po::positional_options_description positions;
   positions.add("command", 1).add("bag", 1);
   po::variables_map values;
   po::store(po::command_line_parser(argc, argv).options(all).positional(positions).run(), values);
   po::notify(values);
-
   if (values.count("help") > 0) {
     std::cout << kUsage << visible;
-    line.command.clear();
-    return line;
+    return false;
   }
-  if (line.command != "run" && line.command != "parameters") {
-    throw std::invalid_argument("the command must be run or parameters; see fiimap_eval --help");
+  if (input->bag.empty()) throw std::invalid_argument("no bag is given; see fiimap_eval --help");
+  return true;
+}
+
+template <typename Options>
+int runCommand(int argc, char** argv, int (*command)(const Options&)) {
+  Options options;
+  const po::options_description visible = describe(&options);
+  return parse(argc, argv, visible, &options.input) ? command(options) : 0;
+}
+
+int printHelp() {
+  fiimap::RunOptions run;
+  fiimap::AccuracyOptions accuracy;
+  fiimap::TruthOptions truth;
+  std::cout << kUsage << describe(&run) << '\n' << describe(&accuracy) << '\n' << describe(&truth);
+  return 0;
+}
+
+int dispatch(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "run") return runCommand(argc, argv, fiimap::run);
+  if (command == "accuracy") return runCommand(argc, argv, fiimap::evaluateAccuracy);
+  if (command == "truth") return runCommand(argc, argv, fiimap::evaluateTruth);
+  if (command == "--help" || command == "-h") return printHelp();
+  if (command == "parameters") {
+    fiimap::printParameters();
+    return 0;
   }
-  if (line.command == "run" && line.run.bag.empty()) {
-    throw std::invalid_argument("run needs a bag; see fiimap_eval --help");
-  }
-  if (values.count("verify") > 0 && line.run.verify < 1) {
-    throw std::invalid_argument("--verify must be at least 1");
-  }
-  return line;
+  throw std::invalid_argument(
+      "the command must be run, accuracy, truth or parameters; see fiimap_eval --help");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    const CommandLine line = parse(argc, argv);
-    if (line.command == "run") return fiimap::run(line.run);
-    if (line.command == "parameters") fiimap::printParameters();
-    return 0;
+    return dispatch(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;

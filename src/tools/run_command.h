@@ -1,18 +1,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "evaluation_input.h"
 
 namespace fiimap {
 
 /// `fiimap_eval run`: builds the map of a bag as the nodelet would, as fast as it can.
 struct RunOptions {
-  std::string bag;
-  std::string config;                 ///< YAML file; empty: defaults
-  std::vector<std::string> settings;  ///< "name=value", after the file
-  std::string json;                   ///< where to write the figures; empty: nowhere
-  std::string save;                   ///< PREFIX of PREFIX_occupied.pcd, ...; empty: nowhere
-  int verify = 0;                     ///< compare with brute force at every n-th scan; 0: never
+  InputOptions input;
+  std::string save;  ///< PREFIX of PREFIX_occupied.pcd, ...; empty: nowhere
+  int verify = 0;    ///< compare with brute force at every n-th scan; 0: never
 };
 
 /// \return 0; 1 when a comparison failed or no scan could be integrated.

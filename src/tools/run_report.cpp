@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "scan_evaluator.h"
+
 namespace fiimap {
 namespace {
 
@@ -64,14 +66,7 @@ void RunReport::finish(const ScanCounters& counters, const Snapshot& snapshot,
 }
 
 nlohmann::json RunReport::json() const {
-  nlohmann::json out;
-  out["scans"] = counters_.received;
-  out["integrated"] = counters_.integrated;
-  out["dropped"] = nlohmann::json::object();
-  for (int i = 0; i < kDropReasonCount; ++i) {
-    const auto reason = static_cast<DropReason>(i);
-    if (counters_.dropped(reason) > 0) out["dropped"][nameOf(reason)] = counters_.dropped(reason);
-  }
+  nlohmann::json out = toJson(counters_);
   out["total_ms"] = quantiles(scans_, [](const ScanReport& s) { return s.times_ms.total(); });
   for (const auto& [name, stage] : stages()) {
     out["stages_ms"][name] =

@@ -14,6 +14,9 @@
 #include "fiimap/mapper.h"
 #include "fiimap/ros/message_conversions.h"
 #include "fiimap/ros/scan_decoder.h"
+#include "reading_projector.h"
+#include "seen_surface.h"
+#include "truth_report.h"
 
 namespace fiimap {
 namespace {
@@ -21,11 +24,8 @@ namespace {
 const std::string kBag = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_excerpt.bag";
 const std::string kScene = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_scene.json";
 
-constexpr double kSurfaceCell = 0.05;   // m
-constexpr double kOnSurface = 0.02;     // m: a reading this near shows that surface for sure
 constexpr double kPassingReach = 6.0;   // m: a shape that moves stays this near where it began
 constexpr double kPassingMargin = 0.5;  // m around what comes, goes or moves
-constexpr int kSeenOften = 5;           // images
 constexpr int kReadingStep = 4;         // pixels
 constexpr double kNanosecond = 1e-9;    // s
 
@@ -38,7 +38,10 @@ CellKey keyOf(const VoxelIndex& v) { return {v.x(), v.y(), v.z()}; }
 class SceneListener : public ScanListener {
  public:
   SceneListener(const MapperConfig& config, const ExactScene& scene)
-      : mapper_(config), scene_(scene), cells_(kSurfaceCell) {}
+      : mapper_(config),
+        scene_(scene),
+        surface_(scene, config.max_ray_length),
+        projector_(config, kReadingStep) {}
 
   void onScan(const SynchronizedScan& scan) override {
     noteVoxelsSeenThrough(scan);
@@ -51,9 +54,7 @@ class SceneListener : public ScanListener {
   void onWarning(const std::string& text) override { FAIL() << text; }
 
   std::shared_ptr<const Snapshot> map() { return mapper_.snapshot(); }
-  /// How many images showed each cell of surfaces that are always there.
-  const std::map<CellKey, int>& seen() const { return seen_; }
-  const VoxelLattice& cells() const { return cells_; }
+  const SeenSurface& surface() const { return surface_; }
   double time() const { return time_; }
   /// How many images looked through each voxel that was occupied where a shape had been.
   const std::map<CellKey, int>& seenThrough() const { return seen_through_; }
@@ -99,41 +100,19 @@ class SceneListener : public ScanListener {
   }
 
   void noteSurface(const SynchronizedScan& scan) {
-    MapperConfig config = mapper_.config();
-    config.pixel_step = kReadingStep;
-    const auto image = std::get<sensor_msgs::ImageConstPtr>(scan.message);
     RangeData range;
-    const DecodedDepthImage decoded = decodeDepthImage(image);
-    DepthProjector(config).project(decoded.view, scan.intrinsics, scan.pose.T_W_S, &range);
-    std::map<CellKey, int> in_this_image;
-    for (const Eigen::Vector3f& end : range.returns) {
-      const Eigen::Vector3d point_W = range.origin + end.cast<double>();
-      if (std::abs(scene_.signedDistance(point_W, time_)) > kOnSurface) continue;
-      in_this_image[keyOf(cells_.indexOf(point_W))] = 1;
-    }
-    for (const auto& [cell, one] : in_this_image) seen_[cell] += one;
+    projector_.project(scan, &range);
+    surface_.add(range, time_);
   }
 
   Mapper mapper_;
   const ExactScene& scene_;
   ScanDecoder decoder_;
-  VoxelLattice cells_;
-  std::map<CellKey, int> seen_;
+  SeenSurface surface_;
+  ReadingProjector projector_;
   std::map<CellKey, int> seen_through_;
   double time_ = 0.0;
 };
-
-bool occupiedNear(const Snapshot& map, const Eigen::Vector3d& point_W) {
-  const VoxelIndex v = map.lattice().indexOf(point_W);
-  if (map.occupancy(v) == Occupancy::kOccupied) return true;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int step : {-1, 1}) {
-      const VoxelIndex neighbour = v + step * VoxelIndex::Unit(axis);
-      if (map.occupancy(neighbour) == Occupancy::kOccupied) return true;
-    }
-  }
-  return false;
-}
 
 class ExactSceneTest : public testing::TestWithParam<double> {
  protected:
@@ -159,19 +138,13 @@ class ExactSceneTest : public testing::TestWithParam<double> {
 };
 
 TEST_P(ExactSceneTest, FindsSurfacesThatWereSeenOften) {
-  std::size_t often = 0, found = 0;
-  for (const auto& [key, images] : listener_->seen()) {
-    if (images < kSeenOften) continue;
-    const Eigen::Vector3d point_W = listener_->cells().centerOf(VoxelIndex(key[0], key[1], key[2]));
-    if (nearPassing(point_W)) continue;
-    ++often;
-    if (occupiedNear(*map_, point_W)) ++found;
-  }
-  const double share = static_cast<double>(found) / often;
-  std::cout << "resolution " << GetParam() << " m: " << 100.0 * share << " % of " << often
-            << " surface cells seen in at least " << kSeenOften << " images are found\n";
-  ASSERT_GT(often, 1000u);
-  EXPECT_GE(share, 0.995);
+  TruthCount count;
+  compareWithScene(*map_, scene_, listener_->surface(), map_->window(), listener_->time(), &count);
+  std::cout << "resolution " << GetParam() << " m: " << 100.0 * count.recallOften() << " % of "
+            << count.often << " surface cells seen in at least " << TruthCount::kOften
+            << " images are found\n";
+  ASSERT_GT(count.often, 1000u);
+  EXPECT_GE(count.recallOften(), 0.995);
 }
 
 TEST_P(ExactSceneTest, PutsObstaclesOnSurfaces) {

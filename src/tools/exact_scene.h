@@ -26,8 +26,17 @@ class ExactScene {
     bool exists(double time) const { return time >= on && time <= off; }
     /// Distance to the surface, negative inside, m.
     double signedDistance(const Eigen::Vector3d& point_W, double time) const;
-    /// Least distance while it exists; for shapes that come and go.
-    double distanceWhileThere(const Eigen::Vector3d& point_W) const;
+    /// Distance along a ray to where it enters the shape, m; infinity when it does not. A ray that
+    /// starts inside of a box or a sphere does not enter it.
+    /// \param direction_W of length 1.
+    double distanceAlong(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& direction_W,
+                         double time) const;
+    /// Least distance while it exists, up to a time; for shapes that come and go.
+    double distanceWhileThere(const Eigen::Vector3d& point_W,
+                              double until = std::numeric_limits<double>::infinity()) const;
+
+   private:
+    Eigen::Vector3d toOwnAxes(const Eigen::Vector3d& point_W, double time) const;
   };
 
   /// \throws std::exception when the file cannot be read.
@@ -38,8 +47,17 @@ class ExactScene {
   const std::vector<Shape>& shapes() const { return shapes_; }
   /// Distance to the nearest surface that exists at a time.
   double signedDistance(const Eigen::Vector3d& point_W, double time) const;
-  /// Distance to the nearest shape that comes, goes or moves, wherever it is at any time.
-  double distanceToPassing(const Eigen::Vector3d& point_W) const;
+  /// Distance to the nearest shape that comes, goes or moves, wherever it was up to a time.
+  double distanceToPassing(const Eigen::Vector3d& point_W,
+                           double until = std::numeric_limits<double>::infinity()) const;
+
+  struct Hit {
+    double distance = std::numeric_limits<double>::infinity();
+    const Shape* shape = nullptr;  ///< null: the ray meets nothing
+  };
+  /// What a ray meets first. \param direction_W of length 1.
+  Hit firstHit(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& direction_W,
+               double time) const;
 
  private:
   double start_time_ = 0.0;

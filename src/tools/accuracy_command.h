@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation_input.h"
+
+namespace fiimap {
+
+/// `fiimap_eval accuracy`: cross-validation. Some scans are held out, the others build the map, and
+/// the map has to foretell the held-out ones.
+struct AccuracyOptions {
+  InputOptions input;
+  std::vector<double> resolutions;  ///< m; empty: that of the configuration
+  std::string split;                ///< file that names the held-out scans; empty: fold of folds
+  int fold = -1;                    ///< -1: the last
+  int folds = 10;
+  int held_out_step = 4;  ///< pixels
+  bool csv = false;       ///< print the table as CSV
+};
+
+/// \return 0; 1 when no scan could be held out.
+/// \throws std::exception with a message for the user when input or settings are bad.
+int evaluateAccuracy(const AccuracyOptions& options);
+
+}  // namespace fiimap

@@ -1,0 +1,57 @@
+#include "evaluation_input.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "fiimap/ros/parameter_sources.h"
+
+namespace fiimap {
+
+EvaluationInput::EvaluationInput(const InputOptions& options) : options_(options) {
+  const ParameterMap given = readSettings();
+  try {
+    bag_.open(options.bag, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& error) {
+    throw std::invalid_argument("cannot read the bag " + options.bag + ": " + error.what());
+  }
+  topics_ = chooseTopics(bag_, given, topics_, &node_);
+}
+
+/// \return what the user set, by name.
+ParameterMap EvaluationInput::readSettings() {
+  ParameterMap given;
+  if (!options_.config.empty()) given = parameterMapFromYaml(options_.config);
+  for (const std::string& setting : options_.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw std::invalid_argument("--set " + setting + ": must be name=value");
+    }
+    given[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  ParameterMap map_settings;
+  for (const std::string& name : applyParameters(given, topics_.parameters())) {
+    map_settings[name] = given[name];
+  }
+  const std::vector<std::string> unknown = configure(map_settings, &mapper_, &node_);
+  if (!unknown.empty()) {
+    throw std::invalid_argument("unknown parameter " + unknown.front() +
+                                ": fiimap_eval parameters lists all");
+  }
+  return given;
+}
+
+void EvaluationInput::writeJson(nlohmann::json figures) const {
+  if (options_.json.empty()) return;
+  figures["bag"] = options_.bag;
+  MapperConfig mapper = mapper_;
+  NodeConfig node = node_;
+  BagTopics topics = topics_;
+  for (const auto& list : {mapperParameters(&mapper), nodeParameters(&node), topics.parameters()}) {
+    for (const Parameter& parameter : list) figures["parameters"][parameter.name] = parameter.get();
+  }
+  std::ofstream stream(options_.json);
+  stream << figures.dump(2) << '\n';
+  if (!stream.flush()) throw std::runtime_error("cannot write " + options_.json);
+}
+
+}  // namespace fiimap

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "fiimap/mapper_config.h"
+#include "fiimap/ros/scan_synchronizer.h"
+
+namespace fiimap {
+
+/// The readings of scans in the world frame, as the map takes them in: same ranges and margins,
+/// with a pixel step of its own. Not thread-safe (keeps memory).
+class ReadingProjector {
+ public:
+  /// \param pixel_step use every n-th pixel of every n-th row, of organised clouds too; >= 1.
+  ReadingProjector(const MapperConfig& config, int pixel_step);
+
+  /// Fills `range` anew. \throws InputError when the message cannot be used.
+  void project(const SynchronizedScan& scan, RangeData* range);
+
+ private:
+  int pixel_step_;
+  DepthProjector depth_projector_;
+  PointProjector point_projector_;
+  PointScan points_;
+};
+
+}  // namespace fiimap

@@ -1,0 +1,53 @@
+#include "scan_evaluator.h"
+
+#include "bag_player.h"
+
+namespace fiimap {
+
+nlohmann::json toJson(const ScanCounters& counters) {
+  nlohmann::json out;
+  out["scans"] = counters.received;
+  out["integrated"] = counters.integrated;
+  out["dropped"] = nlohmann::json::object();
+  for (int i = 0; i < kDropReasonCount; ++i) {
+    const auto reason = static_cast<DropReason>(i);
+    if (counters.dropped(reason) > 0) out["dropped"][nameOf(reason)] = counters.dropped(reason);
+  }
+  return out;
+}
+
+void ScanEvaluator::play(const EvaluationInput& input) {
+  BagPlayer player(input.bag(), input.topics(), input.node());
+  total_ = player.scans();
+  ProgressBar progress(total_);
+  progress_ = &progress;
+  player.play(this, &counters_);
+  progress_ = nullptr;
+}
+
+void ScanEvaluator::onScan(const SynchronizedScan& scan) {
+  try {
+    addScan(scan, counters_.integrated + counters_.dropped());
+    ++counters_.integrated;
+  } catch (const InputError& error) {
+    onDrop(error.drop());
+  }
+  progress_->show(counters_.received);
+}
+
+void ScanEvaluator::onDrop(const Drop& drop) {
+  counters_.countDrop(drop);
+  warnOnce(drop.text());
+}
+
+void ScanEvaluator::onTimeJump(const std::string& what) {
+  warnOnce(what);
+  forget();
+}
+
+/// The kind of trouble is the text up to its colon.
+void ScanEvaluator::warnOnce(const std::string& text) {
+  if (warned_.insert(text.substr(0, text.find(':'))).second) warnings_.push_back(text);
+}
+
+}  // namespace fiimap

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation_input.h"
+
+namespace fiimap {
+
+/// `fiimap_eval truth`: compares the map of a synthetic recording with the scene that it was
+/// rendered from.
+struct TruthOptions {
+  InputOptions input;
+  std::string scene;                ///< file of the scene, as data/README.md describes it
+  std::vector<double> resolutions;  ///< m; empty: that of the configuration
+  int snapshots = 10;               ///< how often to compare, evenly over the recording
+  bool csv = false;                 ///< print the table as CSV
+};
+
+/// \return 0; 1 when no scan could be integrated.
+/// \throws std::exception with a message for the user when input or settings are bad.
+int evaluateTruth(const TruthOptions& options);
+
+}  // namespace fiimap

@@ -1,0 +1,197 @@
+// Cross-validation: figures that can be worked out by hand, and the command on the sample flight.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "accuracy_command.h"
+#include "accuracy_report.h"
+#include "held_out_split.h"
+#include "scan_prediction.h"
+#include "temporary_file.h"
+#include "voxel_walk.h"
+
+namespace fiimap {
+namespace {
+
+constexpr double kResolution = 0.5;  // m; with points at quarters nothing is rounded
+
+class ScanPredictionTest : public testing::Test {
+ protected:
+  ScanPredictionTest() : grid_({20, 20, 20}) {
+    grid_.moveTo(VoxelIndex::Zero(), &changes_);
+    scan_.origin = Eigen::Vector3d(0.25, 0.25, 0.25);
+    scan_.returns.emplace_back(5.0f, 0.0f, 0.0f);  // ends at x = 5.25, in voxel 10
+  }
+
+  ScanPrediction predictWith(const std::vector<VoxelIndex>& occupied) {
+    grid_.clear();
+    for (const VoxelIndex& v : occupied) grid_.set(Plane::kOccupied, v, true);
+    Snapshot::Info info;
+    info.resolution = kResolution;
+    return predict(Snapshot(&grid_, info), scan_);
+  }
+
+  ChangeSet changes_;
+  SlidingGrid grid_;
+  RangeData scan_;
+};
+
+TEST_F(ScanPredictionTest, CountsTheVoxelOfTheEndPoint) {
+  const ScanPrediction result = predictWith({{10, 0, 0}});
+  EXPECT_EQ(result.rays, 1u);
+  EXPECT_EQ(result.hits, 1u);
+  EXPECT_EQ(result.near, 1u);
+  EXPECT_EQ(result.blocked, 0u);
+  EXPECT_EQ(result.outside, 0u);
+}
+
+TEST_F(ScanPredictionTest, FindsNothingInAnEmptyMap) {
+  const ScanPrediction result = predictWith({});
+  EXPECT_EQ(result.rays, 1u);
+  EXPECT_EQ(result.hits + result.near + result.blocked, 0u);
+}
+
+TEST_F(ScanPredictionTest, CountsAllTwentySixNeighboursAsNear) {
+  EXPECT_EQ(predictWith({{11, 1, 1}}).near, 1u);
+  EXPECT_EQ(predictWith({{11, 1, 1}}).hits, 0u);
+  EXPECT_EQ(predictWith({{12, 0, 0}}).near, 0u);
+  EXPECT_EQ(predictWith({{10, 2, 0}}).near, 0u);
+}
+
+TEST_F(ScanPredictionTest, IsBlockedByWhatItLeavesMoreThanTwoVoxelsBeforeItsEnd) {
+  EXPECT_EQ(predictWith({{7, 0, 0}}).blocked, 1u);  // left at x = 4.0: 2.5 voxels before the end
+  EXPECT_EQ(predictWith({{8, 0, 0}}).blocked, 0u);  // left at x = 4.5: 1.5 voxels
+  EXPECT_EQ(predictWith({{0, 0, 0}}).blocked, 1u);
+  EXPECT_EQ(predictWith({{7, 1, 0}}).blocked, 0u);  // beside the ray
+  scan_.returns = {{4.75f, 0.0f, 0.0f}};            // ends at x = 5: exactly two voxels
+  EXPECT_EQ(predictWith({{7, 0, 0}}).blocked, 0u);
+}
+
+TEST_F(ScanPredictionTest, CountsEndPointsOutsideOfTheWindow) {
+  scan_.returns = {{10.0f, 0.0f, 0.0f}, {5.0f, 0.0f, 0.0f}};
+  const ScanPrediction result = predictWith({{10, 0, 0}});
+  EXPECT_EQ(result.rays, 2u);
+  EXPECT_EQ(result.outside, 1u);
+  EXPECT_EQ(result.hits, 1u);
+  EXPECT_EQ(result.blocked, 1u);
+}
+
+TEST(VoxelWalkTest, VisitsEveryVoxelOfASlantedLine) {
+  std::vector<VoxelIndex> voxels;
+  std::vector<double> exits;
+  walkVoxels({0.5, 0.25, -0.5}, {2.5, 1.25, -0.5}, [&](const VoxelIndex& v, double t_out) {
+    voxels.push_back(v);
+    exits.push_back(t_out);
+    return true;
+  });
+  const std::vector<VoxelIndex> expected = {{0, 0, -1}, {1, 0, -1}, {2, 0, -1}, {2, 1, -1}};
+  EXPECT_EQ(voxels, expected);
+  EXPECT_EQ(exits, std::vector<double>({0.25, 0.75, 0.75, 1.0}));
+}
+
+TEST(VoxelWalkTest, WalksBackwardsAndStopsWhenAsked) {
+  std::vector<VoxelIndex> voxels;
+  walkVoxels({0.5, 0.5, 0.5}, {0.5, -2.5, 0.5}, [&](const VoxelIndex& v, double) {
+    voxels.push_back(v);
+    return v.y() > -1;
+  });
+  EXPECT_EQ(voxels, std::vector<VoxelIndex>({{0, 0, 0}, {0, -1, 0}}));
+}
+
+TEST(VoxelWalkTest, VisitsTheOnlyVoxelOfARayWithoutLength) {
+  int visits = 0;
+  walkVoxels({0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, [&](const VoxelIndex&, double t_out) {
+    EXPECT_EQ(t_out, 1.0);
+    return ++visits > 0;
+  });
+  EXPECT_EQ(visits, 1);
+}
+
+TEST(HeldOutSplitTest, HoldsOutEveryTenth) {
+  const HeldOutSplit split = HeldOutSplit::byFold(9, 10);
+  EXPECT_TRUE(split.holdsOut(9));
+  EXPECT_TRUE(split.holdsOut(599));
+  EXPECT_FALSE(split.holdsOut(0));
+  EXPECT_FALSE(split.holdsOut(10));
+  EXPECT_THROW(HeldOutSplit::byFold(10, 10), std::invalid_argument);
+  EXPECT_THROW(HeldOutSplit::byFold(-1, 10), std::invalid_argument);
+  EXPECT_THROW(HeldOutSplit::byFold(0, 1), std::invalid_argument);
+}
+
+TEST(HeldOutSplitTest, ReadsAFile) {
+  const TemporaryFile file("# index use\n0 build\n1 test  # held out\n\n3 test\n");
+  const HeldOutSplit split = HeldOutSplit::fromFile(file.path());
+  EXPECT_FALSE(split.holdsOut(0));
+  EXPECT_TRUE(split.holdsOut(1));
+  EXPECT_FALSE(split.holdsOut(2));
+  EXPECT_TRUE(split.holdsOut(3));
+  EXPECT_FALSE(split.holdsOut(4));
+}
+
+TEST(HeldOutSplitTest, RefusesOtherFiles) {
+  for (const char* text : {"0 maybe\n", "x test\n", "-1 test\n", "7\n", "1 test 2\n"}) {
+    const TemporaryFile file(text);
+    EXPECT_THROW(HeldOutSplit::fromFile(file.path()), std::invalid_argument) << text;
+  }
+  EXPECT_THROW(HeldOutSplit::fromFile("/nowhere/split.txt"), std::invalid_argument);
+}
+
+TEST(AccuracyReportTest, GivesMeanAndDeviationOverScans) {
+  // Shares of hits 1/2 and 1; the scan without rays does not count.
+  const std::vector<ScanPrediction> scans = {{4, 2, 3, 1, 1}, {0, 0, 0, 0, 0}, {2, 2, 2, 1, 0}};
+  const nlohmann::json json = toJson(summarise("final_map", 0.1, scans));
+  EXPECT_EQ(json.at("variant"), "final_map");
+  EXPECT_EQ(json.at("resolution"), 0.1);
+  EXPECT_EQ(json.at("held_out_scans"), 2);
+  EXPECT_DOUBLE_EQ(json.at("hit_rate_mean"), 0.75);
+  EXPECT_DOUBLE_EQ(json.at("hit_rate_std"), 0.25);
+  EXPECT_DOUBLE_EQ(json.at("hit_rate_within_one_voxel_mean"), 0.875);
+  EXPECT_DOUBLE_EQ(json.at("blocked_rate_mean"), 0.375);
+  EXPECT_DOUBLE_EQ(json.at("outside_rate_mean"), 0.125);
+}
+
+TEST(AccuracyCommandTest, ForetellsTheSampleFlight) {
+  const TemporaryFile json_file("");
+  AccuracyOptions options;
+  options.input.bag = FIIMAP_SOURCE_DIR "/data/synth_flight_excerpt.bag";
+  options.input.json = json_file.path();
+  options.resolutions = {0.2, 0.4};
+  ASSERT_EQ(evaluateAccuracy(options), 0);
+
+  nlohmann::json json;
+  std::ifstream(json_file.path()) >> json;
+  EXPECT_EQ(json.at("scans"), 110);
+  EXPECT_EQ(json.at("held_out_step"), 4);
+  EXPECT_EQ(json.at("split"), "index % 10 == 9");
+  ASSERT_EQ(json.at("results").size(), 4u);
+  for (const nlohmann::json& row : json.at("results")) {
+    EXPECT_EQ(row.at("held_out_scans"), 11);
+    EXPECT_GT(row.at("hit_rate_mean"), 0.8) << row;
+    EXPECT_LT(row.at("hit_rate_mean"), 1.0) << row;
+    EXPECT_GT(row.at("hit_rate_within_one_voxel_mean"), 0.95) << row;
+    EXPECT_LT(row.at("blocked_rate_mean"), 0.5) << row;
+    EXPECT_LT(row.at("outside_rate_mean"), 0.001) << row;  // the window is 6 m high
+  }
+  EXPECT_EQ(json.at("results")[0].at("variant"), "final_map");
+  EXPECT_EQ(json.at("results")[1].at("variant"), "online");
+  EXPECT_EQ(json.at("results")[1].at("resolution"), 0.2);
+  EXPECT_EQ(json.at("results")[2].at("resolution"), 0.4);
+  EXPECT_TRUE(json.at("parameters").contains("ray_end_cut"));
+}
+
+TEST(AccuracyCommandTest, RefusesWhatMakesNoSense) {
+  AccuracyOptions options;
+  options.input.bag = FIIMAP_SOURCE_DIR "/data/synth_flight_excerpt.bag";
+  options.held_out_step = 0;
+  EXPECT_THROW(evaluateAccuracy(options), std::invalid_argument);
+  options.held_out_step = 4;
+  options.resolutions = {-1.0};
+  EXPECT_THROW(evaluateAccuracy(options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fiimap
