@@ -51,10 +51,10 @@ struct MapperConfig {
 
   double min_ray_length = 0.3;
   double max_ray_length = 8.0;
-  double ray_end_cut = 1.5;
+  double ray_end_cut = 2.25;
 
-  double p_hit = 0.70;
-  double p_miss = 0.35;
+  double p_hit = 0.65;
+  double p_miss = 0.30;
   double p_min = 0.12;
   double p_max = 0.97;
   double p_occ = 0.80;

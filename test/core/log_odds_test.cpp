@@ -169,11 +169,11 @@ TEST(LogOddsTest, MissesToClearAgreesWithSimulation) {
   }
 }
 
-TEST(LogOddsTest, DefaultsNeedTwoHitsAndFourMisses) {
-  // logit(.70) = .847, logit(.35) = -.619, logit(.80) = 1.386, logit(.97) = 3.476.
+TEST(LogOddsTest, DefaultsNeedThreeHitsAndThreeMisses) {
+  // logit(.65) = .619, logit(.30) = -.847, logit(.80) = 1.386, logit(.97) = 3.476.
   const LogOdds log_odds{MapperConfig()};
-  EXPECT_EQ(log_odds.hitsToOccupy(), 2);
-  EXPECT_EQ(log_odds.missesToClear(), 4);
+  EXPECT_EQ(log_odds.hitsToOccupy(), 3);
+  EXPECT_EQ(log_odds.missesToClear(), 3);
 }
 
 }  // namespace

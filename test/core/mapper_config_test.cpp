@@ -58,7 +58,7 @@ std::vector<FieldOfParameter> fields() {
       number("min_ray_length", &C::min_ray_length, 0.55),
       number("max_ray_length", &C::max_ray_length, 7.5),
       number("ray_end_cut", &C::ray_end_cut, 0.5),
-      number("p_hit", &C::p_hit, 0.65),
+      number("p_hit", &C::p_hit, 0.60),
       number("p_miss", &C::p_miss, 0.45),
       number("p_min", &C::p_min, 0.2),
       number("p_max", &C::p_max, 0.9),

@@ -24,7 +24,12 @@ class ScanPredictionTest : public testing::Test {
   ScanPredictionTest() : grid_({20, 20, 20}) {
     grid_.moveTo(VoxelIndex::Zero(), &changes_);
     scan_.origin = Eigen::Vector3d(0.25, 0.25, 0.25);
-    scan_.returns.emplace_back(5.0f, 0.0f, 0.0f);  // ends at x = 5.25, in voxel 10
+    scan_.returns.push_back({5.0f, 0.0f, 0.0f});  // ends at x = 5.25, in voxel 10
+  }
+
+  void setReturns(const std::vector<Eigen::Vector3f>& ends) {
+    scan_.returns.clear();
+    for (const Eigen::Vector3f& end : ends) scan_.returns.push_back(end);
   }
 
   ScanPrediction predictWith(const std::vector<VoxelIndex>& occupied) {
@@ -67,12 +72,12 @@ TEST_F(ScanPredictionTest, IsBlockedByWhatItLeavesMoreThanTwoVoxelsBeforeItsEnd)
   EXPECT_EQ(predictWith({{8, 0, 0}}).blocked, 0u);  // left at x = 4.5: 1.5 voxels
   EXPECT_EQ(predictWith({{0, 0, 0}}).blocked, 1u);
   EXPECT_EQ(predictWith({{7, 1, 0}}).blocked, 0u);  // beside the ray
-  scan_.returns = {{4.75f, 0.0f, 0.0f}};            // ends at x = 5: exactly two voxels
+  setReturns({{4.75f, 0.0f, 0.0f}});  // ends at x = 5: exactly two voxels
   EXPECT_EQ(predictWith({{7, 0, 0}}).blocked, 0u);
 }
 
 TEST_F(ScanPredictionTest, CountsEndPointsOutsideOfTheWindow) {
-  scan_.returns = {{10.0f, 0.0f, 0.0f}, {5.0f, 0.0f, 0.0f}};
+  setReturns({{10.0f, 0.0f, 0.0f}, {5.0f, 0.0f, 0.0f}});
   const ScanPrediction result = predictWith({{10, 0, 0}});
   EXPECT_EQ(result.rays, 2u);
   EXPECT_EQ(result.outside, 1u);

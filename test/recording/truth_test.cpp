@@ -91,7 +91,7 @@ class TruthTest : public testing::Test {
   void see(double y, double time, double noise = 0.0) {
     RangeData scan;
     scan.origin = {0.0, y, 1.01};
-    scan.returns.emplace_back(static_cast<float>(4.0 + noise), 0.0f, 0.0f);
+    scan.returns.push_back({static_cast<float>(4.0 + noise), 0.0f, 0.0f});
     surface_.add(scan, time);
   }
 
