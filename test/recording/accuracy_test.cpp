@@ -164,6 +164,8 @@ TEST(AccuracyCommandTest, ForetellsTheSampleFlight) {
   AccuracyOptions options;
   options.input.bag = FIIMAP_SOURCE_DIR "/data/synth_flight_excerpt.bag";
   options.input.json = json_file.path();
+  // The tool is tested, not the defaults.
+  options.input.settings = {"p_hit=0.7", "p_miss=0.35", "ray_end_cut=1.5"};
   options.resolutions = {0.2, 0.4};
   ASSERT_EQ(evaluateAccuracy(options), 0);
 
