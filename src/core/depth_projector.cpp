@@ -149,6 +149,7 @@ void DepthProjector::addOther(float depth, const Eigen::Vector3f& ray, RangeData
     ++count->infinite;
     policy = config_.infinite_depth;
   } else if (depth <= limits_.max_depth && depth * ray_length <= limits_.max_length) {
+    // Also where rounding decides: nothing is freed beyond what may have been a near obstacle.
     ++count->too_near;
     return;
   } else {
