@@ -16,8 +16,8 @@ struct ScanCounters {
   std::uint64_t waiting = 0;  ///< counted where they wait, so that a lost scan shows
   std::array<std::uint64_t, kDropReasonCount> dropped_by_reason{};
   std::uint64_t refused_poses = 0;  ///< pose messages that could not be used; no scans
-  std::uint64_t displaced_inputs =
-      0;                  ///< poses, transforms and camera infos that gave way to newer
+  /// Poses, transforms and camera infos that gave way to newer ones in the queue.
+  std::uint64_t displaced_inputs = 0;
   std::string last_drop;  ///< text of the newest drop; empty when there was none
 
   void countDrop(const Drop& drop);
