@@ -74,21 +74,30 @@ void runInflation(benchmark::State& state, const std::vector<InflationStep>& ste
   }
 }
 
+/// Points around the vehicle, as a trajectory optimiser would ask for them.
+std::vector<Eigen::Vector3d> spiralAround(const Eigen::Vector3d& center_W) {
+  constexpr int kPoints = 1000;
+  constexpr double kTurn = 0.1, kGrowth = 0.003;  // rad and m from point to point
+  std::vector<Eigen::Vector3d> points_W;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = i * kTurn, radius = i * kGrowth;
+    points_W.push_back(center_W + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+  }
+  return points_W;
+}
+
 void runQuery(benchmark::State& state, const Recording& recording, double resolution) {
   Mapper mapper(configAt(resolution, kReach));
   for (const Frame& frame : recording.frames) {
     mapper.integrate(frame.image.view, frame.intrinsics, frame.pose);
   }
   const std::shared_ptr<const Snapshot> snapshot = mapper.snapshot();
-  // A spiral of points around the vehicle, as a trajectory optimiser would ask.
-  constexpr double kTurn = 0.1, kGrowth = 0.003, kMaxRadius = 3.0;
-  double angle = 0.0, radius = 0.0;
+  const std::vector<Eigen::Vector3d> points_W =
+      spiralAround(recording.frames.back().pose.vehicle_W);
+  std::size_t i = 0;
   for (auto _ : state) {
-    angle += kTurn;
-    radius = radius > kMaxRadius ? 0.0 : radius + kGrowth;
-    const Eigen::Vector3d offset(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-    const Eigen::Vector3d point_W = recording.frames.back().pose.vehicle_W + offset;
-    benchmark::DoNotOptimize(snapshot->inflation(point_W));
+    benchmark::DoNotOptimize(snapshot->inflation(points_W[i]));
+    i = (i + 1) % points_W.size();
   }
 }
 

@@ -46,28 +46,21 @@ inline int columnInTile(int x, int y) {
   return ((x & (kTileSide - 1)) << kTileShift) | (y & (kTileSide - 1));
 }
 
-/// The bit planes of 32 x 32 voxel columns. Within a plane, columns are row-major (x, then y) and
-/// each column has ColumnLayout::words() words. Tiles are shared with snapshots and copied before
-/// the first change after one (copy on write).
-struct Tile {
-  explicit Tile(const ColumnLayout& layout)
-      : words(static_cast<std::size_t>(kPlaneCount) * kTileColumns * layout.words(), 0) {}
+/// The bit planes of 32 x 32 voxel columns: tileWords() words. Within a plane, columns are
+/// row-major (x, then y) and each column has ColumnLayout::words() words. Tiles are shared with
+/// snapshots and copied before the first change after one (copy on write).
+using Tile = std::uint64_t[];
 
-  std::uint64_t* column(Plane plane, int x, int y, const ColumnLayout& layout) {
-    return words.data() + offsetOf(plane, x, y, layout);
-  }
-  const std::uint64_t* column(Plane plane, int x, int y, const ColumnLayout& layout) const {
-    return words.data() + offsetOf(plane, x, y, layout);
-  }
-
-  static std::size_t offsetOf(Plane plane, int x, int y, const ColumnLayout& layout) {
-    return (static_cast<std::size_t>(plane) * kTileColumns + columnInTile(x, y)) * layout.words();
-  }
-
-  std::vector<std::uint64_t> words;
-  /// Snapshot generation in which the grid made this copy; older tiles are frozen.
-  std::uint64_t generation = 0;
-};
+inline std::size_t planeWords(const ColumnLayout& layout) {
+  return static_cast<std::size_t>(kTileColumns) * layout.words();
+}
+inline std::size_t tileWords(const ColumnLayout& layout) {
+  return kPlaneCount * planeWords(layout);
+}
+/// Where the words of a column begin within its tile.
+inline std::size_t offsetInTile(Plane plane, int x, int y, const ColumnLayout& layout) {
+  return (static_cast<std::size_t>(plane) * kTileColumns + columnInTile(x, y)) * layout.words();
+}
 
 /// Tiles by position: a power-of-two ring on x and y, large enough that no two tiles of a window
 /// share a slot, so that addressing is a shift and a mask (eq. 2, wrapped circularly).
@@ -120,9 +113,12 @@ class SlidingGrid {
   /// Sets one bit. Voxels outside the window are ignored.
   void set(Plane plane, const VoxelIndex& v, bool value);
 
-  /// Words of a column, layout().words() of them; all zero where nothing was ever written. Those of
-  /// the columns after it along y follow, to the end of its tile, once something was.
-  const std::uint64_t* column(Plane plane, int x, int y) const;
+  /// Words of a column, layout().words() of them; those of the columns after it along y follow, to
+  /// the end of its tile. All zero where nothing was ever written.
+  const std::uint64_t* column(Plane plane, int x, int y) const {
+    const std::uint64_t* const tile = slots_[ring_.slotOf(x, y)].tile.get();
+    return tile == nullptr ? zero_row_.data() : tile + offsetInTile(plane, x, y, layout_);
+  }
   /// Replaces a column's words. Writing what is there already costs no copy.
   /// \param words bits outside the window must be zero.
   void writeColumn(Plane plane, int x, int y, const std::uint64_t* words) {
@@ -150,7 +146,7 @@ class SlidingGrid {
   std::vector<std::shared_ptr<const Tile>> shareTiles();
 
   /// Number of set voxels of a plane.
-  std::int64_t count(Plane plane) const { return counts_[static_cast<int>(plane)]; }
+  std::int64_t count(Plane plane) const;
   /// Memory held now, bytes.
   std::size_t memoryBytes() const;
   /// Memory held when every voxel of the window has been seen, bytes.
@@ -159,18 +155,23 @@ class SlidingGrid {
  private:
   struct Slot {
     std::shared_ptr<Tile> tile;
+    /// Of snapshots, in which the grid made this copy of the tile; older ones are frozen.
+    std::uint64_t generation = 0;
     std::unique_ptr<std::int8_t[]> log_odds;
     VoxelIndex origin = VoxelIndex::Zero();
     std::size_t live_position = 0;
+    std::int32_t counts[kPlaneCount] = {0, 0, 0};  ///< set voxels of each plane
   };
 
   Slot& liveSlot(int x, int y);
-  Tile& writableTile(Slot& slot);
+  std::uint64_t* writableTile(Slot* slot);
   void drop(int slot);
   void forgetTile(int slot, std::vector<VoxelIndex>* forgotten);
-  void forgetColumns(int slot, const VoxelBox& kept, std::vector<VoxelIndex>* forgotten);
-  void forgetColumn(int x, int y, const std::uint64_t* kept_heights,
-                    std::vector<VoxelIndex>* forgotten);
+  void forgetOutside(const VoxelBox& kept, int slot, std::vector<VoxelIndex>* forgotten);
+  void forgetRow(Plane plane, int x, const std::uint64_t* kept, Slot* slot,
+                 std::vector<VoxelIndex>* forgotten);
+  void listObstacles(std::uint64_t word, int w, int x, int y,
+                     std::vector<VoxelIndex>* obstacles) const;
   std::size_t tileBytes() const;
   std::size_t logOddsBytes() const;
 
@@ -181,9 +182,7 @@ class SlidingGrid {
   std::vector<Slot> slots_;
   std::vector<int> live_;
   std::vector<std::unique_ptr<std::int8_t[]>> spare_log_odds_;
-  std::vector<std::uint64_t> zero_column_;
-  std::vector<std::uint64_t> scratch_column_;
-  std::int64_t counts_[kPlaneCount] = {0, 0, 0};
+  std::vector<std::uint64_t> zero_row_;  // of the columns of a tile at one x
   std::uint64_t generation_ = 0;
 };
 
@@ -191,18 +190,23 @@ template <typename Visitor>
 void SlidingGrid::forEach(Plane plane, const VoxelBox& box, Visitor&& visit) const {
   const VoxelBox inside = box.intersection(window_);
   if (inside.empty()) return;
-  std::vector<std::uint64_t> heights(layout_.words());
+  const int words = layout_.words();
+  std::vector<std::uint64_t> heights(words);
   heightMask(inside.min.z(), inside.max.z(), heights.data());
-  std::vector<std::uint64_t> found(layout_.words());
   for (const int slot : live_) {
+    if (slots_[slot].counts[static_cast<int>(plane)] == 0) continue;
     const VoxelIndex first = tileOrigin(slot).cwiseMax(inside.min);
     const VoxelIndex end = (tileOrigin(slot).array() + kTileSide).matrix().cwiseMin(inside.max);
+    const int row_words = (end.y() - first.y()) * words;
     for (int x = first.x(); x < end.x(); ++x) {
-      for (int y = first.y(); y < end.y(); ++y) {
-        const std::uint64_t* words = column(plane, x, y);
-        for (int w = 0; w < layout_.words(); ++w) found[w] = words[w] & heights[w];
-        forEachBit(found.data(), layout_.words(), [&](int bit) {
-          visit(VoxelIndex(x, y, layout_.heightOf(bit, window_.min.z())));
+      const std::uint64_t* const row = column(plane, x, first.y());
+      for (int w = 0; w < row_words; ++w) {
+        const int w_in_column = w & (words - 1);
+        const std::uint64_t found = row[w] & heights[w_in_column];
+        if (found == 0) continue;  // mostly
+        forEachBit(&found, 1, [&](int bit) {
+          const int ring_bit = w_in_column * kWordBits + bit;
+          visit(VoxelIndex(x, first.y() + w / words, layout_.heightOf(ring_bit, window_.min.z())));
         });
       }
     }

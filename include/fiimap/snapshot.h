@@ -60,9 +60,9 @@ class Snapshot {
   std::int64_t count(Plane plane) const { return counts_[static_cast<int>(plane)]; }
 
  private:
-  bool test(Plane plane, const VoxelIndex& v) const;
-  /// Words of a column, or null where nothing was ever seen.
-  const std::uint64_t* column(Plane plane, int x, int y) const;
+  /// The tile that holds column (x, y), or null where nothing was ever seen.
+  const std::uint64_t* tileAt(int x, int y) const { return tiles_[ring_.slotOf(x, y)].get(); }
+  bool test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const;
   bool beyondWalls(double z) const { return z < info_.walls.floor || z > info_.walls.ceiling; }
   Occupancy measuredOccupancy(const VoxelIndex& v) const;
   Inflation measuredInflation(const VoxelIndex& v) const;

@@ -31,6 +31,13 @@ struct VoxelBox {
   bool operator!=(const VoxelBox& other) const { return !(*this == other); }
 };
 
+/// Largest integer that is not above the value. Without SSE4.1, std::floor is a function call.
+template <typename Scalar>
+int floorToInt(Scalar value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < static_cast<Scalar>(truncated) ? 1 : 0);
+}
+
 /// The only place where metres become voxels and back (eq. 1 of the paper, with a floored division
 /// so that it holds for negative coordinates). Immutable, safe to share between threads.
 class VoxelLattice {
@@ -42,7 +49,16 @@ class VoxelLattice {
 
   /// Voxel that holds the point (metres). Requires canIndex(point_W).
   VoxelIndex indexOf(const Eigen::Vector3d& point_W) const {
-    return (point_W / resolution_).array().floor().cast<int>();
+    return floorOf(point_W / resolution_);
+  }
+  /// Voxel of the box that holds the point (metres).
+  /// \return false when none does, or the point is not finite; v is left as it was.
+  bool indexIn(const VoxelBox& box, const Eigen::Vector3d& point_W, VoxelIndex* v) const {
+    const Eigen::Vector3d p = point_W / resolution_;
+    const bool inside = (p.array() >= box.min.cast<double>().array()).all() &&
+                        (p.array() < box.max.cast<double>().array()).all();
+    if (inside) *v = floorOf(p);
+    return inside;
   }
   /// False for points that are not finite or lie beyond the range of voxel indices.
   bool canIndex(const Eigen::Vector3d& point_W) const;
@@ -62,6 +78,10 @@ class VoxelLattice {
   }
 
  private:
+  static VoxelIndex floorOf(const Eigen::Vector3d& p) {
+    return {floorToInt(p.x()), floorToInt(p.y()), floorToInt(p.z())};
+  }
+
   double resolution_;
 };
 

@@ -42,7 +42,7 @@ void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
   dirty_slots_.resize(grid->ring().slots(), kNotDirty);
   const std::vector<VoxelIndex> uncovered = obstaclesBeside(changes.entered, reach_, *grid);
   for (const auto* list : {&changes.lower, &changes.raise, &changes.forgotten, &uncovered}) {
-    for (const VoxelIndex& v : *list) markAround(v, *grid);
+    markAround(*list, *grid);
   }
 
   const VoxelBox& window = grid->window();
@@ -57,14 +57,21 @@ void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
   dirty_tiles_.clear();
 }
 
-void IncrementalInflater::markAround(const VoxelIndex& changed, const SlidingGrid& grid) {
+void IncrementalInflater::markAround(const std::vector<VoxelIndex>& changed,
+                                     const SlidingGrid& grid) {
   const VoxelBox& window = grid.window();
-  for (int dx = -reach_; dx <= reach_; ++dx) {
-    const int x = changed.x() + dx;
-    if (x < window.min.x() || x >= window.max.x()) continue;
-    const int half_width = footprint_[dx + reach_];
-    markColumns(x, std::max(changed.y() - half_width, window.min.y()),
-                std::min(changed.y() + half_width, window.max.y() - 1), grid);
+  const VoxelIndex* last = nullptr;
+  for (const VoxelIndex& v : changed) {
+    // Voxels of one column are listed one after the other.
+    if (last != nullptr && last->x() == v.x() && last->y() == v.y()) continue;
+    last = &v;
+    const int first_x = std::max(v.x() - reach_, window.min.x());
+    const int last_x = std::min(v.x() + reach_, window.max.x() - 1);
+    for (int x = first_x; x <= last_x; ++x) {
+      const int half_width = footprint_[x - v.x() + reach_];
+      markColumns(x, std::max(v.y() - half_width, window.min.y()),
+                  std::min(v.y() + half_width, window.max.y() - 1), grid);
+    }
   }
 }
 
@@ -111,62 +118,72 @@ void IncrementalInflater::gather(const VoxelBox& columns, const SlidingGrid& gri
   gathered_ = columns;
   const int side_y = columns.size().y();
   occupied_.resize(static_cast<std::size_t>(columns.size().x()) * side_y * words_);
-  const VoxelBox& window = grid.window();
-  std::uint64_t* target = occupied_.data();
+  const VoxelBox inside = columns.intersection(grid.window());
   for (int x = columns.min.x(); x < columns.max.x(); ++x) {
-    for (int y = columns.min.y(); y < columns.max.y(); ++y, target += words_) {
-      if (window.containsColumn(x, y)) {
-        std::copy_n(grid.column(Plane::kOccupied, x, y), words_, target);
-      } else {
-        std::fill_n(target, words_, 0);
-      }
+    std::uint64_t* const row = occupied_.data() + gatheredOffset(x, columns.min.y());
+    const bool is_inside = x >= inside.min.x() && x < inside.max.x();
+    const int first_y = is_inside ? inside.min.y() : columns.max.y();
+    const int end_y = is_inside ? inside.max.y() : columns.max.y();
+    std::fill(row, occupied_.data() + gatheredOffset(x, first_y), 0);
+    for (int y = first_y; y < end_y;) {
+      const int end_of_tile = (y & ~(kTileSide - 1)) + kTileSide;
+      const int count = std::min(end_y, end_of_tile) - y;
+      std::copy_n(grid.column(Plane::kOccupied, x, y), count * words_,
+                  occupied_.data() + gatheredOffset(x, y));
+      y += count;
     }
+    std::fill(occupied_.data() + gatheredOffset(x, end_y), row + side_y * words_, 0);
   }
+}
+
+/// Where a column begins in occupied_.
+std::size_t IncrementalInflater::gatheredOffset(int x, int y) const {
+  const std::size_t row = x - gathered_.min.x();
+  return (row * gathered_.size().y() + y - gathered_.min.y()) * words_;
 }
 
 void IncrementalInflater::recomputeRow(int x, int y_first, int y_last, SlidingGrid* grid) {
   const int count = (y_last - y_first + 1) * words_;
-  const int side_y = gathered_.size().y();
   inflated_.assign(count, 0);
   for (int half_height = reach_; half_height >= 0; --half_height) {
     for (const Run& run : runs_by_half_height_[half_height]) {
       for (int dy = run.dy_first; dy <= run.dy_last; ++dy) {
-        const int row = x + run.dx - gathered_.min.x();
-        const std::uint64_t* source =
-            occupied_.data() +
-            (static_cast<std::size_t>(row) * side_y + y_first + dy - gathered_.min.y()) * words_;
+        const std::uint64_t* source = occupied_.data() + gatheredOffset(x + run.dx, y_first + dy);
         for (int i = 0; i < count; ++i) inflated_[i] |= source[i];
       }
     }
     if (half_height == 0) break;
-    for (int i = 0; i < count; i += words_) dilateAlongZ(inflated_.data() + i);
+    dilateAlongZ(y_last - y_first + 1, inflated_.data());
   }
-  for (int y = y_first; y <= y_last; ++y) {
-    grid->writeColumn(Plane::kInflated, x, y, inflated_.data() + (y - y_first) * words_);
-  }
+  grid->writeColumns(Plane::kInflated, x, y_first, y_last - y_first + 1, inflated_.data());
 }
 
-/// Dilates a column by one voxel up and down. Bits that would leave the window are taken away
+/// Dilates columns by one voxel up and down. Bits that would leave the window are taken away
 /// before the shift, because in the ring they would come back at its other end.
-void IncrementalInflater::dilateAlongZ(std::uint64_t* column) const {
+void IncrementalInflater::dilateAlongZ(int columns, std::uint64_t* words) const {
   constexpr int kCarry = kWordBits - 1;
   if (words_ == 1) {
-    const std::uint64_t up = *column & not_top_[0];
-    const std::uint64_t down = *column & not_bottom_[0];
-    *column |= (up << 1) | (up >> kCarry) | (down >> 1) | (down << kCarry);
+    const std::uint64_t not_top = not_top_[0], not_bottom = not_bottom_[0];
+    for (int c = 0; c < columns; ++c) {
+      const std::uint64_t up = words[c] & not_top;
+      const std::uint64_t down = words[c] & not_bottom;
+      words[c] |= (up << 1) | (up >> kCarry) | (down >> 1) | (down << kCarry);
+    }
     return;
   }
-  const int last = words_ - 1;
-  const std::uint64_t first_word = column[0];
-  std::uint64_t below = column[last];
-  for (int w = 0; w < words_; ++w) {
-    const std::uint64_t word = column[w];
-    const int below_index = w == 0 ? last : w - 1;
-    const int above_index = w == last ? 0 : w + 1;
-    const std::uint64_t above = w == last ? first_word : column[w + 1];
-    column[w] |= ((word & not_top_[w]) << 1) | ((below & not_top_[below_index]) >> kCarry) |
-                 ((word & not_bottom_[w]) >> 1) | ((above & not_bottom_[above_index]) << kCarry);
-    below = word;
+  for (std::uint64_t* column = words; column < words + columns * words_; column += words_) {
+    const int last = words_ - 1;
+    const std::uint64_t first_word = column[0];
+    std::uint64_t below = column[last];
+    for (int w = 0; w < words_; ++w) {
+      const std::uint64_t word = column[w];
+      const int below_index = w == 0 ? last : w - 1;
+      const int above_index = w == last ? 0 : w + 1;
+      const std::uint64_t above = w == last ? first_word : column[w + 1];
+      column[w] |= ((word & not_top_[w]) << 1) | ((below & not_top_[below_index]) >> kCarry) |
+                   ((word & not_bottom_[w]) >> 1) | ((above & not_bottom_[above_index]) << kCarry);
+      below = word;
+    }
   }
 }
 

@@ -35,12 +35,13 @@ class IncrementalInflater : public Inflater {
     std::array<std::uint32_t, kTileSide> rows;
   };
 
-  void markAround(const VoxelIndex& changed, const SlidingGrid& grid);
+  void markAround(const std::vector<VoxelIndex>& changed, const SlidingGrid& grid);
   void markColumns(int x, int y_first, int y_last, const SlidingGrid& grid);
   void recompute(const DirtyTile& tile, SlidingGrid* grid);
   void gather(const VoxelBox& columns, const SlidingGrid& grid);
   void recomputeRow(int x, int y_first, int y_last, SlidingGrid* grid);
-  void dilateAlongZ(std::uint64_t* column) const;
+  std::size_t gatheredOffset(int x, int y) const;
+  void dilateAlongZ(int columns, std::uint64_t* words) const;
 
   int reach_;
   std::vector<std::vector<Run>> runs_by_half_height_;

@@ -39,12 +39,6 @@ Span clipToBox(const Eigen::Vector3f& origin, const Eigen::Vector3f& ray, const 
   return span;
 }
 
-/// Without SSE4.1, std::floor is a function call.
-int floorToInt(float value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
-}
-
 int ceilToInt(float value) { return -floorToInt(-value); }
 
 }  // namespace

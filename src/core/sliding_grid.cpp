@@ -11,16 +11,6 @@ int ringSide(int columns) {
   return side;
 }
 
-int popcount(const std::uint64_t* words, int count) {
-  int sum = 0;
-  for (int w = 0; w < count; ++w) sum += __builtin_popcountll(words[w]);
-  return sum;
-}
-
-bool isZero(const std::uint64_t* words, int count) {
-  return std::all_of(words, words + count, [](std::uint64_t word) { return word == 0; });
-}
-
 }  // namespace
 
 TileRing::TileRing(int columns_x, int columns_y)
@@ -32,8 +22,7 @@ SlidingGrid::SlidingGrid(const VoxelIndex& size)
       layout_(size.z()),
       ring_(size.x(), size.y()),
       slots_(ring_.slots()),
-      zero_column_(layout_.words(), 0),
-      scratch_column_(layout_.words(), 0) {}
+      zero_row_(static_cast<std::size_t>(kTileSide) * layout_.words(), 0) {}
 
 void SlidingGrid::moveTo(const VoxelIndex& min, ChangeSet* changes) {
   const VoxelBox target{min, min + size_};
@@ -60,79 +49,95 @@ void SlidingGrid::moveTo(const VoxelIndex& min, ChangeSet* changes) {
     if (kept_here.empty()) {
       forgetTile(slot, &changes->forgotten);
     } else {
-      forgetColumns(slot, kept, &changes->forgotten);
+      forgetOutside(kept, slot, &changes->forgotten);
     }
   }
   window_ = target;
 }
 
 void SlidingGrid::forgetTile(int slot, std::vector<VoxelIndex>* forgotten) {
-  const VoxelIndex origin = slots_[slot].origin;
-  const int words = layout_.words();
-  for (int i = 0; i < kTileColumns; ++i) {
-    const int x = origin.x() + (i >> kTileShift);
-    const int y = origin.y() + (i & (kTileSide - 1));
-    for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
-      counts_[static_cast<int>(plane)] -= popcount(column(plane, x, y), words);
+  if (slots_[slot].counts[static_cast<int>(Plane::kOccupied)] > 0) {
+    const VoxelIndex origin = slots_[slot].origin;
+    for (int x = origin.x(); x < origin.x() + kTileSide; ++x) {
+      const std::uint64_t* const row = column(Plane::kOccupied, x, origin.y());
+      for (int w = 0; w < kTileSide * layout_.words(); ++w) {
+        if (row[w] != 0) listObstacles(row[w], w, x, origin.y(), forgotten);
+      }
     }
-    forEachBit(column(Plane::kOccupied, x, y), words, [&](int bit) {
-      forgotten->emplace_back(x, y, layout_.heightOf(bit, window_.min.z()));
-    });
   }
   drop(slot);
 }
 
-void SlidingGrid::forgetColumns(int slot, const VoxelBox& kept,
+/// Clears what is not kept of a tile.
+void SlidingGrid::forgetOutside(const VoxelBox& kept, int slot,
                                 std::vector<VoxelIndex>* forgotten) {
   const VoxelIndex origin = slots_[slot].origin;
-  std::vector<std::uint64_t> kept_heights(layout_.words());
-  heightMask(kept.min.z(), kept.max.z(), kept_heights.data());
-  const bool keeps_all_heights = kept.size().z() == size_.z();
+  const int words = layout_.words();
+  std::vector<std::uint64_t> kept_row(zero_row_.size(), 0);
+  const int first_y = std::max(kept.min.y(), origin.y());
+  const int end_y = std::min(kept.max.y(), origin.y() + kTileSide);
+  for (int y = first_y; y < end_y; ++y) {
+    std::uint64_t* const column = kept_row.data() + (y - origin.y()) * words;
+    if (y == first_y) heightMask(kept.min.z(), kept.max.z(), column);
+    if (y > first_y) std::copy_n(column - words, words, column);
+  }
   for (int x = origin.x(); x < origin.x() + kTileSide; ++x) {
-    for (int y = origin.y(); y < origin.y() + kTileSide; ++y) {
-      const bool keeps_column = kept.containsColumn(x, y);
-      if (keeps_column && keeps_all_heights) continue;
-      forgetColumn(x, y, keeps_column ? kept_heights.data() : zero_column_.data(), forgotten);
+    const bool keeps_row = x >= kept.min.x() && x < kept.max.x();
+    for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
+      forgetRow(plane, x, (keeps_row ? kept_row : zero_row_).data(), &slots_[slot], forgotten);
     }
   }
 }
 
-void SlidingGrid::forgetColumn(int x, int y, const std::uint64_t* kept_heights,
-                               std::vector<VoxelIndex>* forgotten) {
-  const int words = layout_.words();
-  // Mostly nothing leaves.
-  std::uint64_t leaving = 0;
-  for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
-    const std::uint64_t* bits = column(plane, x, y);
-    for (int w = 0; w < words; ++w) leaving |= bits[w] & ~kept_heights[w];
-  }
-  if (leaving == 0) return;
+/// Clears the bits that are not in `kept` of the columns of a tile at one x.
+void SlidingGrid::forgetRow(Plane plane, int x, const std::uint64_t* kept, Slot* slot,
+                            std::vector<VoxelIndex>* forgotten) {
+  const int words = kTileSide * layout_.words();
+  const int y = slot->origin.y();
+  const std::size_t offset = offsetInTile(plane, x, y, layout_);
+  const std::uint64_t* const row = slot->tile.get() + offset;
+  std::uint64_t any_leaving = 0;
+  for (int w = 0; w < words; ++w) any_leaving |= row[w] & ~kept[w];
+  if (any_leaving == 0) return;  // mostly
 
+  std::uint64_t* const target = writableTile(slot) + offset;
   for (int w = 0; w < words; ++w) {
-    scratch_column_[w] = column(Plane::kOccupied, x, y)[w] & ~kept_heights[w];
+    // Counting bits is slow without an instruction for it, and few words lose any.
+    const std::uint64_t leaving = target[w] & ~kept[w];
+    if (leaving == 0) continue;
+    slot->counts[static_cast<int>(plane)] -= __builtin_popcountll(leaving);
+    if (plane == Plane::kOccupied) listObstacles(leaving, w, x, y, forgotten);
+    target[w] ^= leaving;
   }
-  forEachBit(scratch_column_.data(), words, [&](int bit) {
-    forgotten->emplace_back(x, y, layout_.heightOf(bit, window_.min.z()));
+}
+
+/// Appends the voxels of word w of the columns that begin at (x, y) and go on along y.
+void SlidingGrid::listObstacles(std::uint64_t word, int w, int x, int y,
+                                std::vector<VoxelIndex>* obstacles) const {
+  const int first_bit = w % layout_.words() * kWordBits;
+  forEachBit(&word, 1, [&](int bit) {
+    const int z = layout_.heightOf(first_bit + bit, window_.min.z());
+    obstacles->emplace_back(x, y + w / layout_.words(), z);
   });
-  for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
-    for (int w = 0; w < words; ++w) {
-      scratch_column_[w] = column(plane, x, y)[w] & kept_heights[w];
-    }
-    writeColumn(plane, x, y, scratch_column_.data());
-  }
 }
 
 void SlidingGrid::clear() {
   while (!live_.empty()) drop(live_.back());
-  std::fill(std::begin(counts_), std::end(counts_), 0);
 }
 
 void SlidingGrid::clearPlane(Plane plane) {
-  for (const int slot : live_) {
-    Tile& tile = writableTile(slots_[slot]);
-    std::fill_n(tile.column(plane, 0, 0, layout_), kTileColumns * layout_.words(), 0);
+  for (const int index : live_) {
+    Slot& slot = slots_[index];
+    std::uint64_t* const words = writableTile(&slot);
+    std::fill_n(words + offsetInTile(plane, 0, 0, layout_), planeWords(layout_), 0);
+    slot.counts[static_cast<int>(plane)] = 0;
   }
-  counts_[static_cast<int>(plane)] = 0;
+}
+
+std::int64_t SlidingGrid::count(Plane plane) const {
+  std::int64_t voxels = 0;
+  for (const int slot : live_) voxels += slots_[slot].counts[static_cast<int>(plane)];
+  return voxels;
 }
 
 bool SlidingGrid::test(Plane plane, const VoxelIndex& v) const {
@@ -144,30 +149,27 @@ bool SlidingGrid::test(Plane plane, const VoxelIndex& v) const {
 void SlidingGrid::set(Plane plane, const VoxelIndex& v, bool value) {
   if (!window_.contains(v) || test(plane, v) == value) return;
   const int bit = layout_.bitOf(v.z());
-  Tile& tile = writableTile(liveSlot(v.x(), v.y()));
-  tile.column(plane, v.x(), v.y(), layout_)[bit / kWordBits] ^= std::uint64_t{1}
-                                                                << (bit % kWordBits);
-  counts_[static_cast<int>(plane)] += value ? 1 : -1;
-}
-
-const std::uint64_t* SlidingGrid::column(Plane plane, int x, int y) const {
-  const Tile* tile = slots_[ring_.slotOf(x, y)].tile.get();
-  return tile == nullptr ? zero_column_.data() : tile->column(plane, x, y, layout_);
+  Slot& slot = liveSlot(v.x(), v.y());
+  std::uint64_t* const words = writableTile(&slot) + offsetInTile(plane, v.x(), v.y(), layout_);
+  words[bit / kWordBits] ^= std::uint64_t{1} << (bit % kWordBits);
+  slot.counts[static_cast<int>(plane)] += value ? 1 : -1;
 }
 
 void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words) {
   const int count = columns * layout_.words();
-  if (slots_[ring_.slotOf(x, y)].tile == nullptr && isZero(words, count)) return;
+  const std::uint64_t* const old_words = column(plane, x, y);
+  std::uint64_t differences = 0;
+  for (int w = 0; w < count; ++w) differences |= words[w] ^ old_words[w];
+  if (differences == 0) return;
   Slot& slot = liveSlot(x, y);
-  const std::uint64_t* const old_words = slot.tile->column(plane, x, y, layout_);
-  if (std::equal(words, words + count, old_words)) return;
-  std::int64_t& voxels = counts_[static_cast<int>(plane)];
+  std::uint64_t* const target = writableTile(&slot) + offsetInTile(plane, x, y, layout_);
+  std::int32_t& voxels = slot.counts[static_cast<int>(plane)];
   for (int w = 0; w < count; ++w) {
     // Counting bits is slow without an instruction for it, and few words differ.
-    if (words[w] == old_words[w]) continue;
-    voxels += __builtin_popcountll(words[w]) - __builtin_popcountll(old_words[w]);
+    if (words[w] == target[w]) continue;
+    voxels += __builtin_popcountll(words[w]) - __builtin_popcountll(target[w]);
+    target[w] = words[w];
   }
-  std::copy_n(words, count, writableTile(slot).column(plane, x, y, layout_));
 }
 
 std::int8_t* SlidingGrid::logOdds(int x, int y) {
@@ -194,11 +196,11 @@ SlidingGrid::Slot& SlidingGrid::liveSlot(int x, int y) {
   const int index = ring_.slotOf(x, y);
   Slot& slot = slots_[index];
   if (slot.tile != nullptr) return slot;
-  slot.tile = std::make_shared<Tile>(layout_);
-  slot.tile->generation = generation_;
+  slot.tile.reset(new std::uint64_t[tileWords(layout_)]());
+  slot.generation = generation_;
   slot.origin = {x & ~(kTileSide - 1), y & ~(kTileSide - 1), 0};
   if (spare_log_odds_.empty()) {
-    slot.log_odds.reset(new std::int8_t[static_cast<std::size_t>(kTileColumns) * layout_.bits()]);
+    slot.log_odds.reset(new std::int8_t[logOddsBytes()]);
   } else {
     slot.log_odds = std::move(spare_log_odds_.back());
     spare_log_odds_.pop_back();
@@ -208,17 +210,20 @@ SlidingGrid::Slot& SlidingGrid::liveSlot(int x, int y) {
   return slot;
 }
 
-Tile& SlidingGrid::writableTile(Slot& slot) {
-  if (slot.tile->generation != generation_) {
-    slot.tile = std::make_shared<Tile>(*slot.tile);
-    slot.tile->generation = generation_;
+std::uint64_t* SlidingGrid::writableTile(Slot* slot) {
+  if (slot->generation != generation_) {
+    const std::shared_ptr<Tile> copy(new std::uint64_t[tileWords(layout_)]);
+    std::copy_n(slot->tile.get(), tileWords(layout_), copy.get());
+    slot->tile = copy;
+    slot->generation = generation_;
   }
-  return *slot.tile;
+  return slot->tile.get();
 }
 
 void SlidingGrid::drop(int slot_index) {
   Slot& slot = slots_[slot_index];
   slot.tile.reset();
+  std::fill(std::begin(slot.counts), std::end(slot.counts), 0);
   spare_log_odds_.push_back(std::move(slot.log_odds));
   const int moved = live_.back();
   live_[slot.live_position] = moved;
@@ -231,8 +236,7 @@ std::size_t SlidingGrid::logOddsBytes() const {
 }
 
 std::size_t SlidingGrid::tileBytes() const {
-  const std::size_t planes = sizeof(std::uint64_t) * kPlaneCount * kTileColumns * layout_.words();
-  return planes + logOddsBytes();
+  return tileWords(layout_) * sizeof(std::uint64_t) + logOddsBytes();
 }
 
 std::size_t SlidingGrid::memoryBytes() const {

@@ -20,9 +20,8 @@ Occupancy Snapshot::occupancy(const VoxelIndex& v) const {
 }
 
 Occupancy Snapshot::occupancy(const Eigen::Vector3d& point_W) const {
-  if (!lattice_.canIndex(point_W)) return Occupancy::kOutside;
-  const VoxelIndex v = lattice_.indexOf(point_W);
-  if (!window().contains(v)) return Occupancy::kOutside;
+  VoxelIndex v;
+  if (!lattice_.indexIn(window(), point_W, &v)) return Occupancy::kOutside;
   return beyondWalls(point_W.z()) ? Occupancy::kOccupied : measuredOccupancy(v);
 }
 
@@ -32,31 +31,29 @@ Inflation Snapshot::inflation(const VoxelIndex& v) const {
 }
 
 Inflation Snapshot::inflation(const Eigen::Vector3d& point_W) const {
-  if (!lattice_.canIndex(point_W)) return Inflation::kOutside;
-  const VoxelIndex v = lattice_.indexOf(point_W);
-  if (!window().contains(v)) return Inflation::kOutside;
+  VoxelIndex v;
+  if (!lattice_.indexIn(window(), point_W, &v)) return Inflation::kOutside;
   return beyondWalls(point_W.z()) ? Inflation::kInflated : measuredInflation(v);
 }
 
 Occupancy Snapshot::measuredOccupancy(const VoxelIndex& v) const {
-  if (test(Plane::kOccupied, v)) return Occupancy::kOccupied;
-  return test(Plane::kKnown, v) ? Occupancy::kFree : Occupancy::kUnknown;
+  const std::uint64_t* const tile = tileAt(v.x(), v.y());
+  if (tile == nullptr) return Occupancy::kUnknown;
+  if (test(tile, Plane::kOccupied, v)) return Occupancy::kOccupied;
+  return test(tile, Plane::kKnown, v) ? Occupancy::kFree : Occupancy::kUnknown;
 }
 
 Inflation Snapshot::measuredInflation(const VoxelIndex& v) const {
-  if (test(Plane::kInflated, v)) return Inflation::kInflated;
-  return test(Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
+  const std::uint64_t* const tile = tileAt(v.x(), v.y());
+  if (tile == nullptr) return Inflation::kUnknown;
+  if (test(tile, Plane::kInflated, v)) return Inflation::kInflated;
+  return test(tile, Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
 }
 
-bool Snapshot::test(Plane plane, const VoxelIndex& v) const {
-  const std::uint64_t* words = column(plane, v.x(), v.y());
+bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const {
   const int bit = layout_.bitOf(v.z());
-  return words != nullptr && ((words[bit / kWordBits] >> (bit % kWordBits)) & 1u) != 0;
-}
-
-const std::uint64_t* Snapshot::column(Plane plane, int x, int y) const {
-  const Tile* tile = tiles_[ring_.slotOf(x, y)].get();
-  return tile == nullptr ? nullptr : tile->column(plane, x, y, layout_);
+  const std::uint64_t* const words = tile + offsetInTile(plane, v.x(), v.y(), layout_);
+  return ((words[bit / kWordBits] >> (bit % kWordBits)) & 1u) != 0;
 }
 
 std::vector<VoxelIndex> Snapshot::voxels(Plane plane, const VoxelBox& box) const {
@@ -64,12 +61,12 @@ std::vector<VoxelIndex> Snapshot::voxels(Plane plane, const VoxelBox& box) const
   const VoxelBox inside = box.intersection(window());
   for (int x = inside.min.x(); x < inside.max.x(); ++x) {
     for (int y = inside.min.y(); y < inside.max.y(); ++y) {
-      const std::uint64_t* words = column(plane, x, y);
-      if (words == nullptr) {
+      const std::uint64_t* const tile = tileAt(x, y);
+      if (tile == nullptr) {
         y |= kTileSide - 1;  // nothing was ever seen in this tile
         continue;
       }
-      forEachBit(words, layout_.words(), [&](int bit) {
+      forEachBit(tile + offsetInTile(plane, x, y, layout_), layout_.words(), [&](int bit) {
         const int z = layout_.heightOf(bit, window().min.z());
         if (z >= inside.min.z() && z < inside.max.z()) found.emplace_back(x, y, z);
       });

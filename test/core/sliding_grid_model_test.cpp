@@ -39,16 +39,22 @@ struct GridModel {
 /// Shared tiles with a deep copy of what they held when they were shared.
 struct SharedTiles {
   std::vector<std::shared_ptr<const Tile>> tiles;
+  std::size_t words;
   std::vector<std::vector<std::uint64_t>> copies;
 
-  explicit SharedTiles(SlidingGrid* grid) : tiles(grid->shareTiles()) {
+  explicit SharedTiles(SlidingGrid* grid)
+      : tiles(grid->shareTiles()), words(tileWords(grid->layout())) {
     for (const auto& tile : tiles) {
-      copies.push_back(tile == nullptr ? std::vector<std::uint64_t>() : tile->words);
+      copies.push_back(contents(tile.get()));
     }
+  }
+  std::vector<std::uint64_t> contents(const std::uint64_t* tile) const {
+    return tile == nullptr ? std::vector<std::uint64_t>()
+                           : std::vector<std::uint64_t>(tile, tile + words);
   }
   bool unchanged() const {
     for (std::size_t slot = 0; slot < tiles.size(); ++slot) {
-      if (tiles[slot] != nullptr && tiles[slot]->words != copies[slot]) return false;
+      if (tiles[slot] != nullptr && contents(tiles[slot].get()) != copies[slot]) return false;
     }
     return true;
   }
