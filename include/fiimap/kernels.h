@@ -78,11 +78,12 @@ struct EndPoints {
   int words;
 };
 
-/// Where rays end: the bit `bit & 63` of the word at `offset`. Rays that leave the box end in the
-/// last voxel of it that they cross; they have kLeavesBox in `bit`.
+/// Voxels where rays end. Rays that leave the box end in the last voxel of it that they cross; they
+/// have kLeavesBox in `z`.
 struct RayEnds {
-  static constexpr std::int32_t kLeavesBox = kWordBits;
-  std::vector<std::int32_t> offset, bit;
+  static constexpr std::int32_t kLeavesBox = 1 << 24;  ///< more than any height
+  std::vector<std::int32_t> column;                    ///< offset of its lowest word
+  std::vector<std::int32_t> z;
   int size = 0;
 
   /// Makes room for what a kernel may write.

@@ -50,10 +50,12 @@ class RayCaster {
 
   void markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count);
   void markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* mask, RayCount* count);
-  static void markEndBit(int offset, int bit, bool is_return, ScanMask* mask, RayCount* count);
+  static void markVoxel(std::int32_t column, int z, bool is_return, ScanMask* mask,
+                        RayCount* count);
   void walkTo(int end_x, int end_y, ScanMask* mask);
-  void carve(int end_x, int end_y, ScanMask* mask) const;
-  void carveFan(const Fan& fan, ScanMask* mask) const;
+  void carve(int end_x, int end_y, ScanMask* mask);
+  void carveFan(const Fan& fan, ScanMask* mask);
+  void carveRay(const Fan& ray, ScanMask* mask);
   void carveTogether(const Fan& fan, int columns, ScanMask* mask) const;
   void carveApart(const Fan& fan, int first, ScanMask* mask) const;
   float endOfRay(const Fan& fan, int z) const;

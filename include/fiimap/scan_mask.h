@@ -42,16 +42,15 @@ class ScanMask {
     return std::any_of(words, words + words_, [](std::uint64_t word) { return word != 0; });
   }
   void mark(Layer layer, const VoxelIndex& v) {
-    const int word = v.z() / kWordBits;
     if (layer != kFree) {
-      markEnd(layer, columnOffset(v.x(), v.y()) + word, v.z() % kWordBits);
+      markEnd(layer, columnOffset(v.x(), v.y()), v.z());
     } else {
-      column(layer, v.x(), v.y())[word] |= std::uint64_t{1} << (v.z() % kWordBits);
+      column(layer, v.x(), v.y())[v.z() / kWordBits] |= std::uint64_t{1} << (v.z() % kWordBits);
     }
   }
-  /// Marks a voxel of the layers of ends, given the offset of its word and its bit therein.
+  /// Marks a voxel of the layers of ends.
   /// \return whether it was not marked before.
-  bool markEnd(Layer layer, std::int32_t word_offset, int bit);
+  bool markEnd(Layer layer, std::int32_t column_offset, int z);
   /// Offsets of the columns that hold marks of the layers of ends, each once.
   const std::vector<std::int32_t>& endColumns() const { return end_columns_; }
   /// Sets the bits z_low..z_high (inclusive, clipped to the box) of a column of the free layer.
@@ -73,18 +72,18 @@ class ScanMask {
   int words_ = 0;
   std::vector<std::uint64_t> bits_[kLayerCount];
   std::vector<std::int32_t> end_columns_;
+  std::vector<std::uint8_t> has_ends_;  // by offset of column
 };
 
-inline bool ScanMask::markEnd(Layer layer, std::int32_t word_offset, int bit) {
-  const std::uint64_t mark = std::uint64_t{1} << bit;
-  if ((bits_[layer][word_offset] & mark) != 0) return false;
-  const std::int32_t column = word_offset - word_offset % words_;
-  const auto is_zero = [&](Layer l) {
-    return std::all_of(&bits_[l][column], &bits_[l][column] + words_,
-                       [](std::uint64_t word) { return word == 0; });
-  };
-  if (is_zero(kHit) && is_zero(kMissEnd)) end_columns_.push_back(column);
-  bits_[layer][word_offset] |= mark;
+inline bool ScanMask::markEnd(Layer layer, std::int32_t column_offset, int z) {
+  std::uint64_t& word = bits_[layer][column_offset + z / kWordBits];
+  const std::uint64_t mark = std::uint64_t{1} << (z % kWordBits);
+  if ((word & mark) != 0) return false;
+  word |= mark;
+  if (has_ends_[column_offset] == 0) {
+    has_ends_[column_offset] = 1;
+    end_columns_.push_back(column_offset);
+  }
   return true;
 }
 

@@ -87,8 +87,9 @@ void RayCaster::markEnds(const PointList& ends, bool are_returns, ScanMask* mask
   }
   kernels_.listEnds(points, &ends_);
   for (int k = 0; k < ends_.size; ++k) {
-    const bool is_return = are_returns && ends_.bit[k] < RayEnds::kLeavesBox;
-    markEndBit(ends_.offset[k], ends_.bit[k] % kWordBits, is_return, mask, count);
+    const bool leaves = ends_.z[k] >= RayEnds::kLeavesBox;
+    const int z = ends_.z[k] % RayEnds::kLeavesBox;
+    markVoxel(ends_.column[k], z, are_returns && !leaves, mask, count);
   }
 }
 
@@ -104,13 +105,13 @@ void RayCaster::markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* ma
     v = nearestVoxel(origin_ + span.exit * ray, size);
     is_return = false;
   }
-  const int offset = mask->columnOffset(v.x(), v.y()) + v.z() / kWordBits;
-  markEndBit(offset, v.z() % kWordBits, is_return, mask, count);
+  markVoxel(mask->columnOffset(v.x(), v.y()), v.z(), is_return, mask, count);
 }
 
-void RayCaster::markEndBit(int offset, int bit, bool is_return, ScanMask* mask, RayCount* count) {
+void RayCaster::markVoxel(std::int32_t column, int z, bool is_return, ScanMask* mask,
+                          RayCount* count) {
   const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
-  if (mask->markEnd(layer, offset, bit)) ++(is_return ? count->hits : count->misses);
+  if (mask->markEnd(layer, column, z)) ++(is_return ? count->hits : count->misses);
 }
 
 /// The line of the rays to an end column over the columns of the mask.
@@ -150,7 +151,7 @@ void RayCaster::walkTo(int end_x, int end_y, ScanMask* mask) {
   mask->touch(first / mask->size().y(), first % mask->size().y());
 }
 
-void RayCaster::carve(int end_x, int end_y, ScanMask* mask) const {
+void RayCaster::carve(int end_x, int end_y, ScanMask* mask) {
   const float distance_2 =
       (Eigen::Vector2f(end_x + 0.5f, end_y + 0.5f) - origin_.head<2>()).squaredNorm();
   for (const ScanMask::Layer layer : {ScanMask::kHit, ScanMask::kMissEnd}) {
@@ -162,7 +163,8 @@ void RayCaster::carve(int end_x, int end_y, ScanMask* mask) const {
   }
 }
 
-void RayCaster::carveFan(const Fan& fan, ScanMask* mask) const {
+void RayCaster::carveFan(const Fan& fan, ScanMask* mask) {
+  if (fan.z_low == fan.z_high) return carveRay(fan, mask);
   // The shortest ray of the fan is cut off first; up to there all rays pass together.
   const int z_nearest = std::clamp(floorToInt(origin_.z()), fan.z_low, fan.z_high);
   const float t_together = endOfRay(fan, z_nearest);
@@ -170,6 +172,17 @@ void RayCaster::carveFan(const Fan& fan, ScanMask* mask) const {
   while (together > 0 && walk_.t[together] > t_together) --together;
   carveTogether(fan, together, mask);
   if (together < walk_.size) carveApart(fan, together, mask);
+}
+
+/// A fan of one ray, which leaves its last column where it ends.
+void RayCaster::carveRay(const Fan& ray, ScanMask* mask) {
+  const float t_end = endOfRay(ray, ray.z_low);
+  int columns = walk_.size;
+  while (columns > 0 && walk_.t[columns - 1] > t_end) --columns;
+  const float t_out = walk_.t[columns];
+  walk_.t[columns] = std::min(t_out, t_end);
+  carveTogether(ray, columns, mask);
+  walk_.t[columns] = t_out;
 }
 
 /// In each column all rays of the fan touch one run of voxels, from where the lowest ray is lowest

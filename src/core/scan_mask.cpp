@@ -7,6 +7,7 @@ void ScanMask::begin(const VoxelBox& box) {
     for (const Layer layer : {kHit, kMissEnd}) {
       std::fill_n(bits_[layer].begin() + column, words_, 0);
     }
+    has_ends_[column] = 0;
   }
   end_columns_.clear();
   // Only the columns that the last scan touched can hold bits.
@@ -21,6 +22,7 @@ void ScanMask::begin(const VoxelBox& box) {
   for (auto& layer : bits_) {
     if (layer.size() < words) layer.resize(words, 0);
   }
+  if (has_ends_.size() < words) has_ends_.resize(words, 0);
 }
 
 void ScanMask::touch(int x, int y) {

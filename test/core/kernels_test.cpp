@@ -122,7 +122,7 @@ TEST_P(KernelsTest, ListEnds) {
       RayEnds ends;
       kernels.listEnds(points, &ends);
       std::set<std::pair<int, int>> set;
-      for (int k = 0; k < ends.size; ++k) set.emplace(ends.offset[k], ends.bit[k]);
+      for (int k = 0; k < ends.size; ++k) set.emplace(ends.column[k], ends.z[k]);
       EXPECT_TRUE(spread > 0.1f || count < 50 || ends.size < count) << "leaves something out";
       return set;
     };

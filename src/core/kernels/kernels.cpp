@@ -24,9 +24,9 @@ const Kernels& chosenKernels() {
 
 void RayEnds::reserve(int count) {
   const std::size_t room = static_cast<std::size_t>(count) + kVectorRoom;
-  if (offset.size() >= room) return;
-  offset.resize(room);
-  bit.resize(room);
+  if (column.size() >= room) return;
+  column.resize(room);
+  z.resize(room);
 }
 
 void ColumnWalk::reserve(int slabs) {

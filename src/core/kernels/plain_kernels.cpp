@@ -133,8 +133,8 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
           v[axis] = std::clamp(static_cast<std::int32_t>(at), 0, points.size[axis] - 1);
         }
       }
-      ends->offset[ends->size] = (v[0] * points.size[1] + v[1]) * points.words + v[2] / kWordBits;
-      ends->bit[ends->size] = v[2] % kWordBits + (leaves ? RayEnds::kLeavesBox : 0);
+      ends->column[ends->size] = (v[0] * points.size[1] + v[1]) * points.words;
+      ends->z[ends->size] = v[2] + (leaves ? RayEnds::kLeavesBox : 0);
       ++ends->size;
     }
   }

@@ -76,16 +76,12 @@ HWY_INLINE EndVoxels endVoxels(const EndPoints& points, int i) {
 HWY_INLINE void appendEnds(const EndPoints& points, const EndVoxels& v, hn::Mask<Ints> listed,
                            RayEnds* ends) {
   const Ints d;
-  constexpr int kWordShift = 6;
-  static_assert(1 << kWordShift == kWordBits);
-  const auto column = hn::Add(hn::Mul(v.x, hn::Set(d, points.size[1])), v.y);
-  const auto word = hn::ShiftRight<kWordShift>(v.z);
-  const auto offset = hn::Add(hn::Mul(column, hn::Set(d, points.words)), word);
-  const auto bit = hn::And(v.z, hn::Set(d, kWordBits - 1));
+  const auto index = hn::Add(hn::Mul(v.x, hn::Set(d, points.size[1])), v.y);
+  const auto column = hn::Mul(index, hn::Set(d, points.words));
   const auto leaving = hn::RebindMask(d, v.leaving);
-  const auto marked = hn::Or(bit, hn::IfThenElseZero(leaving, hn::Set(d, RayEnds::kLeavesBox)));
-  pack(d, offset, listed, ends->offset.data() + ends->size);
-  ends->size += pack(d, marked, listed, ends->bit.data() + ends->size);
+  const auto z = hn::Or(v.z, hn::IfThenElseZero(leaving, hn::Set(d, RayEnds::kLeavesBox)));
+  pack(d, column, listed, ends->column.data() + ends->size);
+  ends->size += pack(d, z, listed, ends->z.data() + ends->size);
 }
 
 void listEnds(const EndPoints& points, RayEnds* ends) {
