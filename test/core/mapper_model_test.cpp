@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "fiimap/mapper.h"
 #include "mapper_model.h"
 #include "oracle.h"
@@ -109,7 +110,7 @@ PointScan asScan(const ScanPose& pose, const std::vector<Eigen::Vector3d>& point
   return scan;
 }
 
-class MapperModelTest : public ::testing::TestWithParam<unsigned> {};
+class MapperModelTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
   test::Random random(GetParam());
@@ -209,7 +210,7 @@ TEST_P(MapperModelTest, ADepthImageIsTheCloudOfItsPoints) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MapperModelTest, ::testing::Range(1u, 25u));
+INSTANTIATE_TEST_SUITE_P(Seeds, MapperModelTest, ::testing::Range(1, 1 + test::effort(24)));
 
 }  // namespace
 }  // namespace fiimap

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "fiimap/ray_caster.h"
 #include "oracle.h"
 #include "ray_oracle.h"
@@ -153,7 +154,7 @@ class RayCasterPropertyTest : public ::testing::TestWithParam<unsigned> {};
 TEST_P(RayCasterPropertyTest, AgreesWithTheExactReference) {
   test::Random random(GetParam());
   ScanMask mask;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < test::effort(120); ++round) {
     const Setting setting = randomSetting(random);
     SCOPED_TRACE(describe(setting, round));
     RayOracle oracle(setting.box, setting.end_cut);
@@ -184,7 +185,7 @@ std::vector<char> bitsOf(const ScanMask& mask) {
 TEST_P(RayCasterPropertyTest, NeitherOrderNorRepetitionOfPointsMatters) {
   test::Random random(1000 + GetParam());
   ScanMask mask, other_mask;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < test::effort(40); ++round) {
     const Setting setting = randomSetting(random);
     SCOPED_TRACE(describe(setting, round));
     RayOracle unused(setting.box, setting.end_cut);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "oracle.h"
 
 /// One observation per voxel and scan, against a model with one number per voxel (invariants 2, 3).
@@ -154,7 +155,7 @@ TEST_P(ScanIntegratorTest, AgreesWithOneNumberPerVoxel) {
   for (const MapperConfig& config : kConfigs) {
     test::Random random(++seed);
     IntegratorHistory history(config, GetParam(), &random);
-    for (int step = 0; step < 60; ++step) {
+    for (int step = 0; step < test::effort(60); ++step) {
       SCOPED_TRACE("seed and configuration " + std::to_string(seed) + ", step " +
                    std::to_string(step));
       if (test::chance(random, 0.3)) history.slide();

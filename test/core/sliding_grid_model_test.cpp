@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "effort.h"
 #include "fiimap/sliding_grid.h"
 #include "oracle.h"
 
@@ -209,7 +210,7 @@ class History {
 class SlidingGridModelTest : public ::testing::TestWithParam<VoxelIndex> {};
 
 TEST_P(SlidingGridModelTest, AgreesWithSetsOverRandomHistories) {
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (int seed = 1; seed <= test::effort(4); ++seed) {
     test::Random random(seed);
     History history(GetParam(), &random);
     for (int step = 0; step < 60; ++step) {
