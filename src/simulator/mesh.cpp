@@ -72,8 +72,7 @@ Eigen::AlignedBox3f Mesh::bounds() const {
 }
 
 void Mesh::addBox(const Eigen::Vector3d& center, const Eigen::Vector3d& size, double yaw) {
-  const Eigen::Matrix3d R =
-      Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   Mesh box;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d side((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);

@@ -34,8 +34,8 @@ class Random {
     constexpr float kMean = 2.0f * 65535.0f;
     constexpr float kInverseDeviation = 1.0f / 37837.22f;  // sqrt(4 (65536^2 - 1) / 12)
     const std::uint64_t r = bits();
-    const auto sum = static_cast<float>((r & 0xffff) + (r >> 16 & 0xffff) + (r >> 32 & 0xffff) +
-                                        (r >> 48));
+    const auto sum =
+        static_cast<float>((r & 0xffff) + (r >> 16 & 0xffff) + (r >> 32 & 0xffff) + (r >> 48));
     return (sum - kMean) * kInverseDeviation;
   }
 

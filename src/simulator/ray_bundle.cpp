@@ -58,8 +58,7 @@ const RayHits& RayBundle::cast(const RayScene& scene, const Eigen::Isometry3d& T
     scene.intersect(&packet);
     for (std::size_t i = 0; i < count; ++i) {
       const bool met = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      hits_.lengths[first + i] =
-          met ? packet.ray.tfar[i] : std::numeric_limits<float>::infinity();
+      hits_.lengths[first + i] = met ? packet.ray.tfar[i] : std::numeric_limits<float>::infinity();
       if (with_incidence) hits_.cos_incidence[first + i] = met ? cosIncidence(packet, i) : 0.0f;
     }
   }

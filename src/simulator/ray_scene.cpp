@@ -24,11 +24,8 @@ struct Nearest {
 bool considerTriangle(RTCPointQueryFunctionArguments* arguments) {
   auto* nearest = static_cast<Nearest*>(arguments->userPtr);
   const Mesh& mesh = *nearest->mesh;
-  const Eigen::Vector3i& t = mesh.triangles[arguments->primID];
-  const double distance = distanceToTriangle(
-      nearest->point_W, mesh.vertices[static_cast<std::size_t>(t[0])].cast<double>(),
-      mesh.vertices[static_cast<std::size_t>(t[1])].cast<double>(),
-      mesh.vertices[static_cast<std::size_t>(t[2])].cast<double>());
+  const double distance =
+      distanceToTriangle(nearest->point_W, mesh, mesh.triangles[arguments->primID]);
   if (distance >= nearest->distance) return false;
   nearest->distance = distance;
   arguments->query->radius = static_cast<float>(distance);
@@ -73,9 +70,8 @@ class RayScene::Geometry {
         scene_(rtcNewScene(device)),
         geometry_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between triangles
-    void* triangles =
-        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(Eigen::Vector3i), mesh_.triangles.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              sizeof(Eigen::Vector3i), mesh_.triangles.size());
     std::memcpy(triangles, mesh_.triangles.data(),
                 mesh_.triangles.size() * sizeof(Eigen::Vector3i));
     vertices_ = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -151,9 +147,23 @@ void RayScene::intersect(RTCRayHit16* rays) const {
   if (moving_) moving_->intersect(rays);  // shortens those that meet something nearer
 }
 
-double RayScene::distance(const Eigen::Vector3d& point_W, double farthest) const {
-  const double still = still_->distance(point_W, farthest);
-  return moving_ ? moving_->distance(point_W, still) : still;
+double RayScene::distance(const Eigen::Vector3d& point_W, double time, double farthest) const {
+  return distanceToMoving(point_W, time, still_->distance(point_W, farthest));
+}
+
+/// Without a tree: there are few, and most are too far away to look at their triangles.
+double RayScene::distanceToMoving(const Eigen::Vector3d& point_W, double time,
+                                  double farthest) const {
+  double nearest = farthest;
+  for (const MovingObstacle& obstacle : world_.moving) {
+    const Mesh& mesh = obstacle.shape;
+    const Eigen::Vector3d point = point_W - obstacle.positionAt(time);
+    if (obstacle.bounds.exteriorDistance(point) >= nearest) continue;
+    for (const Eigen::Vector3i& t : mesh.triangles) {
+      nearest = std::min(nearest, distanceToTriangle(point, mesh, t));
+    }
+  }
+  return nearest;
 }
 
 }  // namespace fiimap::sim

@@ -21,18 +21,21 @@ class RayScene {
 
   const World& world() const { return world_; }
 
-  /// Moves the moving obstacles to where they are at a time, s.
+  /// Moves the moving obstacles to where they are at a time, s, for rays.
   void setTime(double time);
 
   /// Traces 16 rays to what they meet first; the caller has filled origins, directions and limits.
   void intersect(RTCRayHit16* rays) const;
 
-  /// Distance from a point to the nearest surface, m; `farthest` when there is none nearer.
-  double distance(const Eigen::Vector3d& point_W, double farthest) const;
+  /// Distance from a point to the nearest surface at a time, s, whatever setTime() said, m;
+  /// `farthest` when there is none nearer.
+  double distance(const Eigen::Vector3d& point_W, double time, double farthest) const;
 
  private:
   class Geometry;
   class Device;
+
+  double distanceToMoving(const Eigen::Vector3d& point_W, double time, double farthest) const;
 
   World world_;
   std::unique_ptr<Device> device_;

@@ -33,4 +33,12 @@ double distanceToTriangle(const Vector3d& point, const Vector3d& a, const Vector
   return (point - a - ab * (area_b / area) - ac * (area_c / area)).norm();
 }
 
+double distanceToTriangle(const Vector3d& point, const Mesh& mesh,
+                          const Eigen::Vector3i& triangle) {
+  const auto corner = [&](int i) -> Vector3d {
+    return mesh.vertices[static_cast<std::size_t>(triangle[i])].cast<double>();
+  };
+  return distanceToTriangle(point, corner(0), corner(1), corner(2));
+}
+
 }  // namespace fiimap::sim

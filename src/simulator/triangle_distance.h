@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "mesh.h"
 
 namespace fiimap::sim {
 
@@ -8,5 +8,9 @@ namespace fiimap::sim {
 /// told apart by the signs of barycentric areas (Ericson, Real-Time Collision Detection, 5.1.5).
 double distanceToTriangle(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
                           const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// To a triangle of a mesh.
+double distanceToTriangle(const Eigen::Vector3d& point, const Mesh& mesh,
+                          const Eigen::Vector3i& triangle);
 
 }  // namespace fiimap::sim

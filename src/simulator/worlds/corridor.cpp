@@ -6,11 +6,11 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr double kHalfWidth = 2.0;   // m, between the walls
-constexpr double kHeight = 3.0;      // m
-constexpr double kMargin = 3.0;      // m behind the start and beyond the goal
-constexpr double kThickness = 0.2;   // m, of walls, floor and ceiling
-constexpr double kFlightHeight = 1.3;  // m
+constexpr double kHalfWidth = 2.0;      // m, between the walls
+constexpr double kHeight = 3.0;         // m
+constexpr double kMargin = 3.0;         // m behind the start and beyond the goal
+constexpr double kThickness = 0.2;      // m, of walls, floor and ceiling
+constexpr double kFlightHeight = 1.3;   // m
 constexpr double kFirstObstacle = 4.0;  // m after the start; as far before the goal
 constexpr int kColumnSides = 16;
 

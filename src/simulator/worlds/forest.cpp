@@ -7,8 +7,8 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr double kMargin = 10.0;      // m of forest behind the start and beyond the goal
-constexpr double kClearRadius = 3.0;  // m around start and goal
+constexpr double kMargin = 10.0;       // m of forest behind the start and beyond the goal
+constexpr double kClearRadius = 3.0;   // m around start and goal
 constexpr double kFlightHeight = 1.5;  // m
 constexpr double kGroundThickness = 0.2;
 constexpr double kBushesPerTree = 0.3;

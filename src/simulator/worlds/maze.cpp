@@ -74,7 +74,8 @@ World makeMaze(const WorldConfig& config) {
   // Cells have their middles at whole multiples of kCell.
   const double low = -kCell / 2.0, high = kCell * (cells - 0.5), half = kWall / 2.0;
   mesh.addBoxBetween({low - half, low - half, -kWall}, {high + half, high + half, 0.0});
-  mesh.addBoxBetween({low - half, low - half, kHeight}, {high + half, high + half, kHeight + kWall});
+  mesh.addBoxBetween({low - half, low - half, kHeight},
+                     {high + half, high + half, kHeight + kWall});
   mesh.addBoxBetween({low - half, low - half, 0.0}, {low + half, high + half, kHeight});
   mesh.addBoxBetween({low - half, low - half, 0.0}, {high + half, low + half, kHeight});
   for (int x = 0; x < cells; ++x) {

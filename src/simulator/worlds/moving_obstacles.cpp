@@ -6,9 +6,9 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr std::uint64_t kStream = 1;      // of random numbers: the still world has the other
-constexpr double kClearDistance = 4.0;    // m along the way after the start and before the goal
-constexpr double kHeight = 2.4;           // m
+constexpr std::uint64_t kStream = 1;    // of random numbers: the still world has the other
+constexpr double kClearDistance = 4.0;  // m along the way after the start and before the goal
+constexpr double kHeight = 2.4;         // m
 constexpr int kSides = 12;
 
 }  // namespace
@@ -28,6 +28,7 @@ std::vector<MovingObstacle> makeMovingObstacles(const WorldConfig& config, const
     MovingObstacle obstacle;
     obstacle.shape.addCylinder(Eigen::Vector3d::Zero(), {0.0, 0.0, kHeight}, radius, radius,
                                kSides);
+    obstacle.bounds = obstacle.shape.bounds().cast<double>();
     obstacle.middle_W.head<2>() = world.start_W.head<2>() + at * along;
     obstacle.reach_W.head<2>() = reach * across;
     obstacle.angular_frequency = config.moving_speed / reach;  // fastest in the middle

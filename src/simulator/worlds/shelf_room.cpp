@@ -66,7 +66,8 @@ World makeShelfRoom(const WorldConfig& config) {
   const Eigen::Vector2d ball = near(4.0, 2.5), block = near(-6.0, 3.5), beam = near(2.0, -0.8);
   mesh.addBox({box.x(), box.y(), 0.9}, {1.0, 1.4, 1.8}, random.uniform(-M_PI, M_PI));
   mesh.addBox({block.x(), block.y(), 0.4}, {1.2, 0.8, 0.8}, random.uniform(-M_PI, M_PI));
-  mesh.addCylinder({column.x(), column.y(), 0.0}, {column.x(), column.y(), 3.0}, 0.35, 0.35, kSides);
+  mesh.addCylinder({column.x(), column.y(), 0.0}, {column.x(), column.y(), 3.0}, 0.35, 0.35,
+                   kSides);
   mesh.addCylinder({cone.x(), cone.y(), 0.0}, {cone.x(), cone.y(), 2.2}, 0.9, 0.05, kSides);
   mesh.addEllipsoid({ball.x(), ball.y(), 1.4}, {0.7, 0.7, 0.7});
   mesh.addBox({beam.x(), beam.y(), 2.4}, {3.0, 0.3, 0.3}, random.uniform(-M_PI, M_PI));

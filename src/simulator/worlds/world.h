@@ -31,7 +31,8 @@ struct WorldConfig {
 
 /// Swings on a line.
 struct MovingObstacle {
-  Mesh shape;  ///< around its position
+  Mesh shape;                  ///< around its position
+  Eigen::AlignedBox3d bounds;  ///< of the shape
   Eigen::Vector3d middle_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d reach_W = Eigen::Vector3d::Zero();  ///< from the middle to where it turns
   double angular_frequency = 0.0;                     ///< rad/s
