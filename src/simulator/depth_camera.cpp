@@ -6,7 +6,7 @@
 namespace fiimap::sim {
 namespace {
 
-// Pixels are traced in tiles, whose rays stay close together: measured faster than 16 x 1.
+// Pixels are traced in square tiles, whose rays stay close together.
 constexpr int kTile = 4;
 constexpr double kFarthest = 1000.0;  // m
 

@@ -59,8 +59,9 @@ World makeShelfRoom(const WorldConfig& config) {
 
   const auto near = [&random](double x, double y) {
     constexpr double kShift = 0.5;
-    return Eigen::Vector2d(x + random.uniform(-kShift, kShift),
-                           y + random.uniform(-kShift, kShift));
+    const double shift_x = random.uniform(-kShift, kShift);
+    const double shift_y = random.uniform(-kShift, kShift);
+    return Eigen::Vector2d(x + shift_x, y + shift_y);
   };
   const Eigen::Vector2d box = near(-2.5, -2.0), column = near(1.0, -3.0), cone = near(4.5, -1.5);
   const Eigen::Vector2d ball = near(4.0, 2.5), block = near(-6.0, 3.5), beam = near(2.0, -0.8);

@@ -50,7 +50,7 @@ struct World {
   Eigen::Vector3d goal_W = Eigen::Vector3d::Zero();
 };
 
-/// The same world for the same configuration, on every machine.
+/// The same world for the same configuration.
 /// \throws std::invalid_argument when a mesh file cannot be read.
 World makeWorld(const WorldConfig& config);
 
