@@ -18,9 +18,11 @@ Eigen::Vector3d limited(const Eigen::Vector3d& vector, double longest) {
 Eigen::Isometry3d Quadrotor::State::T_W_B() const {
   const Eigen::Vector3d up = (acceleration_W - kGravity_W).normalized();
   const Eigen::Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
-  const Eigen::Vector3d left = up.cross(heading).normalized();
+  // Seen from above the nose points along the yaw, however the body tilts.
+  const Eigen::Vector3d forward =
+      (up.z() * heading - heading.dot(up) * Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();
-  T_W_B.linear() << left.cross(up), left, up;
+  T_W_B.linear() << forward, up.cross(forward), up;
   T_W_B.translation() = position_W;
   return T_W_B;
 }

@@ -10,7 +10,7 @@ struct QuadrotorConfig {
   double max_acceleration = 7.0;
   double max_jerk = 80.0;
   double max_yaw_rate = 3.0;
-  double position_gain = 2.5;
+  double position_gain = 2.0;
   double velocity_gain = 5.0;
   double attitude_gain = 20.0;
   double yaw_gain = 4.0;
