@@ -34,8 +34,9 @@ Simulator::Simulator(const SimulatorConfig& config)
   record_.add(measureClearance(), 0.0, config_.vehicle_radius);
 }
 
-void Simulator::command(const Setpoint& setpoint_O) {
+void Simulator::command(const Setpoint& setpoint_O, double time) {
   setpoint_O_ = setpoint_O;
+  setpoint_time_ = std::clamp(time, this->time() - config_.command_timeout, this->time());
   setpoint_step_ = steps_;
 }
 
@@ -68,9 +69,9 @@ void Simulator::fly() {
   vehicle_.advance(hover_W_, kStep);
 }
 
-/// The newest command went on as it began, in the true world.
+/// The newest command, gone on as it began, in the true world.
 Setpoint Simulator::extrapolatedCommand() const {
-  const double age = static_cast<double>(steps_ - setpoint_step_) * kStep;
+  const double age = time() - setpoint_time_;
   const Setpoint& c = *setpoint_O_;
   const Eigen::Isometry3d T_W_O = odometry_error_.T_O_W().inverse();
   const Eigen::Vector3d forward_W = T_W_O.linear().col(0);

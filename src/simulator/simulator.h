@@ -37,9 +37,9 @@ class Simulator {
   double time() const { return static_cast<double>(steps_) / kStepsPerSecond; }
   std::uint64_t steps() const { return steps_; }
 
-  /// A new setpoint of the vehicle, valid from now on. In the odometry frame, as on a vehicle whose
-  /// flight controller knows no better.
-  void command(const Setpoint& setpoint_O);
+  /// A new setpoint of the vehicle, in the odometry frame: its flight controller knows no better.
+  /// \param time s, when the vehicle shall be there; it goes on from there as the command began.
+  void command(const Setpoint& setpoint_O, double time);
 
   /// One step of time.
   void advance();
@@ -77,8 +77,9 @@ class Simulator {
   Lidar lidar_;
 
   std::uint64_t steps_ = 0;
-  std::optional<Setpoint> setpoint_O_;  // none: hovers at hover_
-  std::uint64_t setpoint_step_ = 0;
+  std::optional<Setpoint> setpoint_O_;  // none: hovers at hover_W_
+  double setpoint_time_ = 0.0;          // s, when it holds
+  std::uint64_t setpoint_step_ = 0;     // when it came
   Setpoint hover_W_;
   FlightRecord record_;
   std::deque<OdometrySample> odometry_;  // on its way

@@ -44,7 +44,7 @@ std::string bytesOfFlight(const SimulatorConfig& config) {
   for (int step = 0; step < 600; ++step) {
     Setpoint setpoint;
     setpoint.position_W = simulator.scene().world().start_W + Eigen::Vector3d(0.005 * step, 0, 0);
-    if (step % 5 == 0) simulator.command(setpoint);
+    if (step % 5 == 0) simulator.command(setpoint, simulator.time());
     simulator.advance();
     while (const auto odometry = simulator.odometry()) {
       appendBytes(odometry->T_O_B.data(), 16, &bytes);
@@ -103,7 +103,7 @@ TEST(SimulatorTest, FollowsCommandsAndBrakesWhenTheyStop) {
   setpoint.velocity_W = {kSpeed, 0, 0};
   for (int step = 0; step < 600; ++step) {
     setpoint.position_W = start_W + Eigen::Vector3d(kSpeed * simulator.time(), 0, 0);
-    if (step % 6 == 0) simulator.command(setpoint);
+    if (step % 6 == 0) simulator.command(setpoint, simulator.time());
     simulator.advance();
   }
   EXPECT_NEAR(simulator.vehicle().position_W.x(), kSpeed * simulator.time(), 0.05);
@@ -121,12 +121,28 @@ TEST(SimulatorTest, FollowsCommandsAndBrakesWhenTheyStop) {
   EXPECT_NEAR(simulator.record().path_length, stop, 0.1);
 }
 
+TEST(SimulatorTest, ALateCommandHoldsAtItsTime) {
+  Simulator late(smallConfig()), punctual(smallConfig());
+  constexpr double kDelay = 0.2;  // s
+  Setpoint setpoint;
+  setpoint.velocity_W = {1, 0, 0};
+  for (int step = 0; step < 900; ++step) {
+    for (Simulator* simulator : {&late, &punctual}) {
+      const double time = simulator->time() - (simulator == &late ? kDelay : 0.0);
+      setpoint.position_W = simulator->scene().world().start_W + Eigen::Vector3d(time, 0, 0);
+      simulator->command(setpoint, time);
+      simulator->advance();
+    }
+  }
+  EXPECT_NEAR(late.vehicle().position_W.x(), punctual.vehicle().position_W.x(), 1e-6);
+}
+
 TEST(SimulatorTest, OdometryIsTheTruthWithoutErrors) {
   Simulator simulator(smallConfig());
   Setpoint setpoint;
   setpoint.position_W = simulator.scene().world().start_W + Eigen::Vector3d(1, 1, 0);
   for (int step = 0; step < 100; ++step) {
-    simulator.command(setpoint);
+    simulator.command(setpoint, simulator.time());
     simulator.advance();
     while (const auto odometry = simulator.odometry()) {
       const Eigen::Isometry3d T_W_B = simulator.vehicle().T_W_B();
@@ -148,7 +164,7 @@ TEST(SimulatorTest, ItsControllerBelievesTheOdometry) {
   setpoint.position_W = start_W;
   double estimated_error = 0.0;
   for (int step = 0; step < 3000; ++step) {
-    simulator.command(setpoint);
+    simulator.command(setpoint, simulator.time());
     simulator.advance();
     while (const auto odometry = simulator.odometry()) {
       estimated_error = (odometry->T_O_B.translation() - start_W).norm();
@@ -188,7 +204,7 @@ TEST(SimulatorTest, CountsACollisionOncePerContact) {
     Setpoint setpoint;
     setpoint.position_W = position_W;
     for (int step = 0; step < 900; ++step) {
-      simulator.command(setpoint);
+      simulator.command(setpoint, simulator.time());
       simulator.advance();
     }
   };

@@ -75,15 +75,16 @@ void SimulatorNodelet::configureFromParameters() {
 
 void SimulatorNodelet::onCommand(
     const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message) {
+  const double time = publisher_->timeOf(message->header.stamp);
   try {
     const Setpoint setpoint = toSetpoint(*message, config_.world_frame);
     const std::lock_guard<std::mutex> lock(command_mutex_);
-    command_ = setpoint;
+    command_ = Command{setpoint, time};
   } catch (const std::invalid_argument& error) {
     NODELET_WARN_THROTTLE(kWarningPeriod, "a command was refused: %s", error.what());
     return;
   }
-  pacer_->hear(Pacer::Follower::kPlanner, publisher_->timeOf(message->header.stamp));
+  pacer_->hear(Pacer::Follower::kPlanner, time);
 }
 
 void SimulatorNodelet::onMap(const Statistics::ConstPtr& statistics) {
@@ -99,7 +100,7 @@ void SimulatorNodelet::step() {
   if (stopping_) return;
   {
     const std::lock_guard<std::mutex> lock(command_mutex_);
-    if (command_) simulator_->command(*command_);
+    if (command_) simulator_->command(command_->setpoint, command_->time);
     command_.reset();
   }
   simulator_->advance();

@@ -42,8 +42,12 @@ class SimulatorNodelet : public nodelet::Nodelet {
   std::unique_ptr<SimulatorPublisher> publisher_;
   std::unique_ptr<Pacer> pacer_;
 
+  struct Command {
+    Setpoint setpoint;
+    double time;  ///< s, of its stamp
+  };
   std::mutex command_mutex_;
-  std::optional<Setpoint> command_;  // newest that was not yet taken
+  std::optional<Command> command_;  // newest that was not yet taken
 
   std::atomic<bool> stopping_{false};
   ros::Subscriber command_subscriber_;

@@ -23,7 +23,9 @@ class SimulatorPublisher {
   /// What is due of clock, odometry, TF, truth and markers.
   void publishState(Simulator& simulator);
 
-  bool imageIsWanted() const { return image_publisher_.getNumSubscribers() > 0; }
+  bool imageIsWanted() const {
+    return image_publisher_.getNumSubscribers() + camera_info_publisher_.getNumSubscribers() > 0;
+  }
   void publishImage(double time, const std::vector<std::uint16_t>& millimetres);
   bool cloudIsWanted() const { return cloud_publisher_.getNumSubscribers() > 0; }
   void publishCloud(double time, const std::vector<Eigen::Vector3f>& points);
