@@ -8,7 +8,8 @@ namespace {
 
 // Pixels are traced in square tiles, whose rays stay close together.
 constexpr int kTile = 4;
-constexpr double kFarthest = 1000.0;  // m
+// Rays end a little beyond the range, because noise may bring what lies there into it.
+constexpr double kRangeMargin = 1.25;
 
 /// Pixel indices tile by tile.
 std::vector<std::size_t> pixelsInTiles(int width, int height) {
@@ -62,7 +63,8 @@ Eigen::Isometry3d CameraConfig::T_B_C() const {
 
 DepthCamera::DepthCamera(const CameraConfig& config)
     : pixels_(pixelsInTiles(config.image_width, config.image_height)),
-      rays_(pixelRays(config, pixels_)) {
+      rays_(pixelRays(config, pixels_)),
+      longest_(kRangeMargin * config.max_range) {
   frame_.width = config.image_width;
   frame_.height = config.image_height;
   frame_.depth.resize(pixels_.size());
@@ -70,7 +72,7 @@ DepthCamera::DepthCamera(const CameraConfig& config)
 
 const DepthFrame& DepthCamera::render(const RayScene& scene, const Eigen::Isometry3d& T_W_C,
                                       bool with_incidence) {
-  const RayHits& hits = rays_.cast(scene, T_W_C, kFarthest, with_incidence);
+  const RayHits& hits = rays_.cast(scene, T_W_C, longest_, with_incidence);
   for (std::size_t i = 0; i < pixels_.size(); ++i) frame_.depth[pixels_[i]] = hits.lengths[i];
   frame_.cos_incidence.resize(hits.cos_incidence.size());
   for (std::size_t i = 0; i < hits.cos_incidence.size(); ++i) {

@@ -27,7 +27,7 @@ struct CameraConfig {
   Eigen::Isometry3d T_B_C() const;
 };
 
-/// Row by row. NaN-free: infinity where nothing was met.
+/// Row by row. Infinity where nothing was met, or nothing that is anywhere near the camera's range.
 struct DepthFrame {
   int width = 0;
   int height = 0;
@@ -49,6 +49,7 @@ class DepthCamera {
  private:
   std::vector<std::size_t> pixels_;  // index of each ray's pixel
   RayBundle rays_;
+  double longest_;  // m
   DepthFrame frame_;
 };
 

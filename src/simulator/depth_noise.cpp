@@ -35,7 +35,8 @@ void DepthNoise::apply(std::uint64_t number, DepthFrame* frame) const {
       const bool missing = hidden[static_cast<std::size_t>(u)] ||
                            cos_incidence[u] < min_cos_incidence_ || random.chance(config_.dropout);
       const float disparity = depth_times_disparity_ / row[u] + noise * random.normal();
-      const float quantised = std::round(disparity / step) * step;
+      const auto steps = static_cast<std::int64_t>(disparity / step + 0.5f);
+      const float quantised = static_cast<float>(steps) * step;
       row[u] = missing || quantised <= 0.0f ? kMissing : depth_times_disparity_ / quantised;
     }
   }

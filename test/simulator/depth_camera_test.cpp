@@ -16,6 +16,7 @@ CameraConfig smallCamera() {
   CameraConfig config;
   config.image_width = 50;  // not a multiple of the tiles
   config.image_height = 39;
+  config.max_range = 60.0;  // the worlds are smaller
   return config;
 }
 
