@@ -191,6 +191,11 @@ void SimulatorConfig::validate() const {
     refuse("parameter lidar_fov_up = " + std::to_string(lidar.lidar_fov_up) +
            ": must not be lower than lidar_fov_down below the horizontal plane");
   }
+  constexpr double kSlowest = 0.001;
+  if (real_time_factor > 0.0 && real_time_factor < kSlowest) {
+    refuse("parameter real_time_factor = " + std::to_string(real_time_factor) +
+           ": must be 0 or at least 0.001");
+  }
   const bool in_wall_time = !publish_clock;
   if (in_wall_time && real_time_factor != 1.0) {
     refuse("parameter real_time_factor = " + std::to_string(real_time_factor) +

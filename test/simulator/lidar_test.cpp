@@ -54,6 +54,7 @@ TEST(LidarTest, LivoxPatternsCoverTheirFieldAndDiffer) {
   const auto first = lidar.scan(scene, somePose(), 0);
   const auto second = lidar.scan(scene, somePose(), 1);
   ASSERT_EQ(first.size(), 16u * 900u);
+  ASSERT_EQ(second.size(), first.size());
   EXPECT_NE(first, second);
   std::vector<int> sectors(36, 0);
   for (const Eigen::Vector3f& point_L : first) {

@@ -38,6 +38,7 @@ TEST(SimulatorConfigTest, RefusesWhatDoesNotFitAndNamesIt) {
       {{{"max_acceleration", "9.81"}}, "max_acceleration"},
       {{{"lidar_fov_down", "-0.5"}, {"lidar_fov_up", "0.4"}}, "lidar_fov_up"},
       {{{"real_time_factor", "2"}}, "real_time_factor"},
+      {{{"real_time_factor", "1e-6"}, {"publish_clock", "true"}}, "real_time_factor"},
       {{{"max_lead", "0.1"}}, "max_lead"},
   };
   for (const auto& [values, name] : cases) {
