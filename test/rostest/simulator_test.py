@@ -153,7 +153,7 @@ class SimulatorTest(ManagerTest):
                                   ('base_link', 'lidar')})
 
     def test_flies_as_commanded_and_brakes_when_commands_stop(self):
-        self.load_simulator({**CORRIDOR, 'image_width': 16, 'image_height': 12})
+        loader = self.load_simulator({**CORRIDOR, 'image_width': 16, 'image_height': 12})
         end = self.fly((1.0, 0.0, 0.0), 2.0)
         self.assertLess(numpy.linalg.norm(self.position() - end), 0.5)
         truth = self.messages['truth'][-1]
@@ -166,6 +166,7 @@ class SimulatorTest(ManagerTest):
         self.assertEqual(truth.collisions, 0)
         self.assertGreater(truth.least_clearance, 0.2)
         self.assertAlmostEqual(truth.path_length, truth.position.x, delta=0.1)
+        self.unload(loader)
 
     def test_refuses_commands_of_another_frame(self):
         self.load_simulator({**CORRIDOR, 'image_width': 16, 'image_height': 12})
