@@ -25,11 +25,11 @@ class ManagerTest(rostest_support.MapTest):
         super().tearDown()
         self.assertTrue(self.manager.is_running(), 'the manager died')
 
-    def load(self, nodelet, name, parameters):
+    def load(self, nodelet, name, parameters, *remappings):
         """Loads a nodelet. It is unloaded when the returned process is interrupted."""
         self.set_parameters(parameters, name)
         return self.start(program('nodelet', 'nodelet'), 'load', nodelet, '/manager',
-                          f'__name:={name}', environment=self.environment)
+                          f'__name:={name}', *remappings, environment=self.environment)
 
     def load_map(self, parameters):
         loader = self.load('fiimap/MappingNodelet', 'map', parameters)

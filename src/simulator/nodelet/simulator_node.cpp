@@ -1,0 +1,23 @@
+// Stand-alone node around fiimap/SimulatorNodelet.
+
+#include <string>
+#include <vector>
+
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulator");
+  const ros::NodeHandle keep_ros_running;
+  const bool provide_services = false;
+  nodelet::Loader loader(provide_services);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool loaded = loader.load(ros::this_node::getName(), "fiimap/SimulatorNodelet",
+                                  ros::names::getRemappings(), arguments);
+  if (!loaded) {
+    ROS_FATAL("The simulator nodelet could not be loaded; see the messages above.");
+    return 1;
+  }
+  ros::spin();
+  return 0;
+}
