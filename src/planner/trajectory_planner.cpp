@@ -1,0 +1,103 @@
+#include "trajectory_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "trajectory_optimizer.h"
+
+namespace fiimap {
+namespace {
+
+// Ever slower, until limits and obstacles allow it.
+constexpr double kSpeedFactors[] = {0.9, 0.65, 0.4, 0.2};
+constexpr double kAccelerationPart = 0.6;  // of the limit, for speeding up; the rest is for turns
+constexpr double kRounding = 1e-6;         // share by which a limit may be exceeded
+constexpr int kRestKnots = 2;              // added to come to rest smoothly
+
+/// Speed towards the beginning of a way.
+double speedAlong(const MotionState& start, const Polyline& way) {
+  constexpr double kLook = 0.5;  // m
+  const Eigen::Vector3d ahead = way.at(kLook) - start.position;
+  return ahead.norm() > 0.0 ? std::max(0.0, start.velocity.dot(ahead.normalized())) : 0.0;
+}
+
+}  // namespace
+
+TrajectoryPlanner::TrajectoryPlanner(const PlannerConfig& config)
+    : config_(config), search_(static_cast<std::size_t>(config.max_visited)) {}
+
+Plan TrajectoryPlanner::plan(const FlightSpace& space, const MotionState& start, double start_time,
+                             const Eigen::Vector3d& goal) {
+  Plan plan;
+  const VoxelLattice& lattice = space.lattice();
+  if (!lattice.canIndex(start.position) || !lattice.canIndex(goal)) return plan;
+  const VoxelIndex first = lattice.indexOf(start.position);
+  const VoxelBox region = regionAround(space, first);
+  if (!region.contains(first)) return plan;
+
+  const VoxelPath path = search_.find(space, first, lattice.indexOf(goal), region,
+                                      config_.max_escape / space.resolution());
+  plan.end = path.end;
+  plan.visited = path.visited;
+  if (path.end == PathEnd::kNowhere) return plan;
+
+  const Eigen::Vector3d end =
+      path.end == PathEnd::kGoal ? goal : lattice.centerOf(path.voxels.back());
+  const Polyline through = throughCenters(path, start.position, end, lattice);
+  // The way out stays as it was found: its first free point is behind the start and the way's
+  // voxels.
+  const std::size_t kept = path.escape > 0 ? path.escape + 2 : 1;
+  const Polyline way = shortcut(through, space, kept);
+  plan.path = way.points();
+  std::optional<Bspline> curve;
+  for (const double factor : kSpeedFactors) {
+    for (const bool smooth : {true, false}) {
+      if (!curve) curve = fly(space, start, smooth ? way : through, factor, smooth);
+    }
+  }
+  if (curve) plan.trajectory.emplace(*std::move(curve), start_time);
+  return plan;
+}
+
+VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIndex& start) const {
+  const int reach = static_cast<int>(std::ceil(config_.planning_horizon / space.resolution()));
+  const VoxelBox region{start.array() - reach, start.array() + reach + 1};
+  return space.endsAtWindow() ? region.intersection(space.snapshot().window()) : region;
+}
+
+std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const MotionState& start,
+                                              const Polyline& way, double speed_factor,
+                                              bool smooth) const {
+  const SpeedProfile profile(way.length(), speedAlong(start, way), speed_factor * config_.max_speed,
+                             kAccelerationPart * config_.max_acceleration);
+  const double interval = config_.knot_interval;
+  const int segments = std::max(
+      Bspline::kDegree, static_cast<int>(std::ceil(profile.duration() / interval)) + kRestKnots);
+  Bspline::Points control = Bspline::controlOf(start, interval);
+  // The second control point belongs to the start, the one before the last to the end.
+  for (int i = Bspline::kDegree; i < segments; ++i) {
+    control.push_back(way.at(profile.at((i - 1) * interval)));
+  }
+  for (int i = 0; i < Bspline::kDegree; ++i) control.push_back(way.points().back());
+  const Bspline guide(std::move(control), interval);
+  if (!smooth) return isAccepted(space, guide, start) ? std::optional(guide) : std::nullopt;
+
+  TrajectoryOptimizer optimizer(
+      space,
+      {{config_.max_speed, config_.max_acceleration}, config_.clearance, config_.max_escape});
+  std::optional<Bspline> curve = optimizer.optimize(guide);
+  if (curve && !isAccepted(space, *curve, start)) curve.reset();
+  return curve;
+}
+
+bool TrajectoryPlanner::isAccepted(const FlightSpace& space, const Bspline& curve,
+                                   const MotionState& start) const {
+  const double max_speed = std::max(config_.max_speed, start.velocity.norm());
+  const double max_acceleration = std::max(config_.max_acceleration, start.acceleration.norm());
+  return curve.speedBound() <= max_speed * (1.0 + kRounding) &&
+         curve.accelerationBound() <= max_acceleration * (1.0 + kRounding) &&
+         !firstCollision(Trajectory(curve, 0.0), space, 0.0, config_.max_escape);
+}
+
+}  // namespace fiimap
