@@ -9,8 +9,8 @@
 namespace fiimap {
 namespace {
 
-constexpr double kHoverInterval = 0.1;  // s; any will do
-constexpr double kSlowSpeed = 0.1;      // m/s; braking at less takes as long as at this speed
+constexpr double kHoverInterval = 1e-3;  // s; it is at rest from the start
+constexpr double kSlowSpeed = 0.1;       // m/s; braking at less takes as long as at this speed
 constexpr double kStepsPerVoxel = 2.0;
 
 double maxSpeed(const Bspline& curve, double from, double to) {

@@ -9,11 +9,14 @@
 namespace fiimap {
 namespace {
 
-// Ever slower, until limits and obstacles allow it.
-constexpr double kSpeedFactors[] = {0.9, 0.65, 0.4, 0.2};
-constexpr double kAccelerationPart = 0.6;  // of the limit, for speeding up; the rest is for turns
+constexpr double kSpeedPart = 0.9;         // of the limit, to fly with; the rest is for turns
+constexpr double kAccelerationPart = 0.6;  // of the limit, for speeding up; likewise
 constexpr double kRounding = 1e-6;         // share by which a limit may be exceeded
 constexpr int kRestKnots = 2;              // added to come to rest smoothly
+// Ever slower, until limits and obstacles allow it.
+constexpr int kAttempts = 4;
+constexpr double kSlower = 0.65, kMuchSlower = 0.4;  // share of the speed for the next attempt
+constexpr double kSlowest = 0.2;
 
 /// Speed towards the beginning of a way.
 double speedAlong(const MotionState& start, const Polyline& way) {
@@ -50,14 +53,16 @@ Plan TrajectoryPlanner::plan(const FlightSpace& space, const MotionState& start,
   const std::size_t kept = path.escape > 0 ? path.escape + 2 : 1;
   const Polyline way = shortcut(through, space, kept);
   plan.path = way.points();
-  std::optional<Bspline> curve;
-  for (const double factor : kSpeedFactors) {
-    for (const bool smooth : {true, false}) {
-      if (!curve) curve = fly(space, start, smooth ? way : through, factor, smooth);
-    }
-  }
+  std::optional<Bspline> curve = fly(space, start, way, through);
   if (curve) plan.trajectory.emplace(*std::move(curve), start_time);
   return plan;
+}
+
+Trajectory TrajectoryPlanner::stop(const MotionState& start, double start_time) const {
+  const double speed = start.velocity.norm();
+  const double length = speed * speed / (2.0 * config_.max_braking);
+  const Polyline way({start.position, start.position + length * start.velocity.stableNormalized()});
+  return {along(way, {length, speed, speed, config_.max_braking}, start), start_time};
 }
 
 VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIndex& start) const {
@@ -66,11 +71,8 @@ VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIn
   return space.endsAtWindow() ? region.intersection(space.snapshot().window()) : region;
 }
 
-std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const MotionState& start,
-                                              const Polyline& way, double speed_factor,
-                                              bool smooth) const {
-  const SpeedProfile profile(way.length(), speedAlong(start, way), speed_factor * config_.max_speed,
-                             kAccelerationPart * config_.max_acceleration);
+Bspline TrajectoryPlanner::along(const Polyline& way, const SpeedProfile& profile,
+                                 const MotionState& start) const {
   const double interval = config_.knot_interval;
   const int segments = std::max(
       Bspline::kDegree, static_cast<int>(std::ceil(profile.duration() / interval)) + kRestKnots);
@@ -80,24 +82,43 @@ std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const Mo
     control.push_back(way.at(profile.at((i - 1) * interval)));
   }
   for (int i = 0; i < Bspline::kDegree; ++i) control.push_back(way.points().back());
-  const Bspline guide(std::move(control), interval);
-  if (!smooth) return isAccepted(space, guide, start) ? std::optional(guide) : std::nullopt;
+  return {std::move(control), interval};
+}
 
+Bspline TrajectoryPlanner::guideAlong(const Polyline& way, const MotionState& start,
+                                      double speed_factor) const {
+  const SpeedProfile profile(way.length(), speedAlong(start, way),
+                             speed_factor * kSpeedPart * config_.max_speed,
+                             kAccelerationPart * config_.max_acceleration);
+  return along(way, profile, start);
+}
+
+std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const MotionState& start,
+                                              const Polyline& way, const Polyline& safe_way) const {
   TrajectoryOptimizer optimizer(
       space,
       {{config_.max_speed, config_.max_acceleration}, config_.clearance, config_.max_escape});
-  std::optional<Bspline> curve = optimizer.optimize(guide);
-  if (curve && !isAccepted(space, *curve, start)) curve.reset();
-  return curve;
+  double factor = 1.0;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::optional<Bspline> curve = optimizer.optimize(guideAlong(way, start, factor));
+    const double share = curve ? slowdown(*curve, start) : kSlower;
+    if (curve && share >= 1.0) return curve;
+    factor = std::max(kSlowest, factor * std::clamp(share, kMuchSlower, kSlower));
+  }
+  // Slowly from voxel to voxel: the slower, the nearer to a way that is known to be free.
+  Bspline crawl = guideAlong(safe_way, start, kSlowest);
+  const bool accepted = slowdown(crawl, start) >= 1.0 &&
+                        !firstCollision(Trajectory(crawl, 0.0), space, 0.0, config_.max_escape);
+  return accepted ? std::optional(std::move(crawl)) : std::nullopt;
 }
 
-bool TrajectoryPlanner::isAccepted(const FlightSpace& space, const Bspline& curve,
-                                   const MotionState& start) const {
+double TrajectoryPlanner::slowdown(const Bspline& curve, const MotionState& start) const {
   const double max_speed = std::max(config_.max_speed, start.velocity.norm());
   const double max_acceleration = std::max(config_.max_acceleration, start.acceleration.norm());
-  return curve.speedBound() <= max_speed * (1.0 + kRounding) &&
-         curve.accelerationBound() <= max_acceleration * (1.0 + kRounding) &&
-         !firstCollision(Trajectory(curve, 0.0), space, 0.0, config_.max_escape);
+  const double speed = std::max(kRounding, curve.speedBound());
+  const double acceleration = std::max(kRounding, curve.accelerationBound());
+  return (1.0 + kRounding) *
+         std::min(max_speed / speed, std::sqrt(max_acceleration / acceleration));
 }
 
 }  // namespace fiimap

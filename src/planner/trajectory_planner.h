@@ -30,12 +30,19 @@ class TrajectoryPlanner {
   Plan plan(const FlightSpace& space, const MotionState& start, double start_time,
             const Eigen::Vector3d& goal);
 
+  /// Straight on to rest, whatever is there.
+  Trajectory stop(const MotionState& start, double start_time) const;
+
  private:
   VoxelBox regionAround(const FlightSpace& space, const VoxelIndex& start) const;
+  /// Control points along a way, from a state to rest, at the times of a speed profile.
+  Bspline along(const Polyline& way, const SpeedProfile& profile, const MotionState& start) const;
+  Bspline guideAlong(const Polyline& way, const MotionState& start, double speed_factor) const;
+  /// \param way with shortcuts; \param safe_way without.
   std::optional<Bspline> fly(const FlightSpace& space, const MotionState& start,
-                             const Polyline& way, double speed_factor, bool smooth) const;
-  /// Whether a curve may be flown from a state.
-  bool isAccepted(const FlightSpace& space, const Bspline& curve, const MotionState& start) const;
+                             const Polyline& way, const Polyline& safe_way) const;
+  /// The share of its speed at which a curve would hold the limits; >= 1: it does.
+  double slowdown(const Bspline& curve, const MotionState& start) const;
 
   PlannerConfig config_;
   PathSearch search_;
