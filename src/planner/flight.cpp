@@ -12,7 +12,7 @@ constexpr double kMinLead = 0.1;     // s, from an attempt to plan to the start 
 constexpr double kLeadFactor = 2.0;  // times what the last attempt took
 constexpr double kMaxLead = 2.0;     // s
 constexpr double kResting = 0.05;    // m/s
-constexpr double kProgress = 0.1;    // m, that a plan must lead on to be worth flying
+constexpr double kProgress = 0.1;    // m, that a plan must lead elsewhere to be worth flying
 constexpr double kLookAhead = 1.0;   // m, of way to see where it leads
 
 double angleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
@@ -42,6 +42,7 @@ void Flight::setGoals(const std::vector<Eigen::Vector3d>& goals) {
   goals_.assign(goals.begin(), goals.end());
   goal_is_new_ = true;
   ends_at_goal_ = false;
+  if (status_.state == FlightState::kGoalReached) set(FlightState::kHovering, "has a new goal");
 }
 
 void Flight::restart() {
@@ -131,7 +132,8 @@ void Flight::flyTo(const Eigen::Vector3d& goal, const FlightInput& input) {
 bool Flight::wantsPlan(double time, bool collides) const {
   if (flown_.next) return false;
   if (goal_is_new_ || (collides && !flown_.rests(time))) return true;
-  return (collides || !ends_at_goal_) && time - last_attempt_ >= config_.replan_period;
+  const double pause = std::max(config_.replan_period, kLeadFactor * status_.planning_time);
+  return (collides || !ends_at_goal_) && time - last_attempt_ >= pause;
 }
 
 double Flight::planStart(double time) const {
@@ -144,11 +146,11 @@ double Flight::planStart(double time) const {
 }
 
 void Flight::planTo(const Eigen::Vector3d& goal, const FlightInput& input,
-                    std::optional<double> limit) {
+                    std::optional<double> collision) {
   const double start_time = planStart(input.time);
   const bool rests = flown_.rests(input.time);
   // There is no point in a plan from where the vehicle must not get to.
-  if (limit && !rests && start_time >= *limit) return;
+  if (collision && !rests && start_time >= *collision) return;
   const MotionState start = flown_.current->at(start_time);
   last_attempt_ = input.time;
   goal_is_new_ = false;
@@ -167,8 +169,10 @@ void Flight::planTo(const Eigen::Vector3d& goal, const FlightInput& input,
     return;
   }
   const Eigen::Vector3d end = plan_.trajectory->at(plan_.trajectory->endTime()).position;
-  if (rests && (end - start.position).norm() < kProgress) {
-    set(FlightState::kNoPath, "the goal cannot be reached from here");
+  const Eigen::Vector3d flown_end = flown_.current->at(flown_.current->endTime()).position;
+  if (!collision && (end - flown_end).norm() < kProgress) {
+    ends_at_goal_ = plan_.end == PathEnd::kGoal;
+    if (rests && !ends_at_goal_) set(FlightState::kNoPath, "no way leads nearer to the goal");
     return;
   }
   // From rest it may begin at any time.
@@ -203,7 +207,7 @@ void Flight::brake(const std::string& reason) {
   auto braked =
       std::make_shared<const Trajectory>(flown_.current->braked(now, planner_config_.max_braking));
   const bool stops_in_time =
-      !space_ || !firstCollision(*braked, *space_, now, planner_config_.max_escape);
+      !space_ || !firstCollision(*braked, *space_, {now}, planner_config_.max_escape);
   if (flown_.next && !stops_in_time) {
     // The next one was planned because of what is ahead on this one.
     flown_.next =
@@ -216,11 +220,11 @@ void Flight::brake(const std::string& reason) {
 std::optional<double> Flight::nextCollision(const FlightInput& input) const {
   if (!space_) return std::nullopt;
   const double max_escape = planner_config_.max_escape;
-  const Trajectory& last = flown_.last();
-  const std::optional<double> first =
-      firstCollision(*flown_.current, *space_, input.time, max_escape);
-  if (!flown_.next || (first && *first < last.startTime())) return first;
-  return firstCollision(last, *space_, last.startTime(), max_escape);
+  if (!flown_.next) return firstCollision(*flown_.current, *space_, {input.time}, max_escape);
+  const double switched = flown_.next->startTime();
+  const std::optional<double> before =
+      firstCollision(*flown_.current, *space_, {input.time, switched}, max_escape);
+  return before ? before : firstCollision(*flown_.next, *space_, {switched}, max_escape);
 }
 
 double Flight::timeToBrake(double time) const {

@@ -71,7 +71,8 @@ class Flight {
   void passGoals(const FlightInput& input);
   void flyTo(const Eigen::Vector3d& goal, const FlightInput& input);
   bool wantsPlan(double time, bool collides) const;
-  void planTo(const Eigen::Vector3d& goal, const FlightInput& input, std::optional<double> limit);
+  void planTo(const Eigen::Vector3d& goal, const FlightInput& input,
+              std::optional<double> collision);
   double planStart(double time) const;
   void accept(Trajectory trajectory, const FlightInput& input);
   bool mustTurnFirst(const Trajectory& trajectory, const FlightInput& input);

@@ -9,7 +9,7 @@
 namespace fiimap {
 namespace {
 
-constexpr double kHoverInterval = 1e-3;  // s; it is at rest from the start
+constexpr double kHoverInterval = 1e-3;  // s; any will do
 constexpr double kSlowSpeed = 0.1;       // m/s; braking at less takes as long as at this speed
 constexpr double kStepsPerVoxel = 2.0;
 
@@ -29,7 +29,8 @@ Trajectory::Trajectory(Bspline curve, double start_time)
 
 Trajectory Trajectory::hover(const Eigen::Vector3d& position, double time,
                              std::optional<double> heading) {
-  Trajectory hover({Bspline::Points(Bspline::kDegree + 1, position), kHoverInterval}, time);
+  Trajectory hover({Bspline::Points(Bspline::kDegree + 1, position), kHoverInterval},
+                   time - kHoverInterval);
   hover.heading_ = heading;
   return hover;
 }
@@ -79,15 +80,15 @@ MotionState Trajectory::at(double time) const {
 }
 
 std::optional<double> firstCollision(const Trajectory& trajectory, const FlightSpace& space,
-                                     double from, double max_escape) {
+                                     const TimeSpan& span, double max_escape) {
   const double step =
       space.resolution() / kStepsPerVoxel / std::max(kSlowSpeed, trajectory.curve().speedBound());
-  Eigen::Vector3d position = trajectory.at(from).position;
+  Eigen::Vector3d position = trajectory.at(span.from).position;
   bool escaping = !space.isFree(position);
   double escaped = 0.0;
   // At least one point is looked at, also of a hover that has long begun.
-  const double end = std::max(trajectory.endTime(), from) + step;
-  for (double time = from; time < end; time += step) {
+  const double end = std::max(trajectory.endTime(), span.from) + step;
+  for (double time = span.from; time < std::min(end, span.until); time += step) {
     const Eigen::Vector3d next = trajectory.at(time + step).position;
     if (escaping) {
       escaped += (next - position).norm();
@@ -100,7 +101,8 @@ std::optional<double> firstCollision(const Trajectory& trajectory, const FlightS
     }
     position = next;
   }
-  return escaping ? std::optional(from) : std::nullopt;
+  const bool stays = escaping && span.until >= end;
+  return stays ? std::optional(span.from) : std::nullopt;
 }
 
 }  // namespace fiimap

@@ -46,11 +46,16 @@ class Trajectory {
   double slowing_ = 0.0;  ///< 1/s
 };
 
-/// When a trajectory first leaves free space after `from`, s; none: never.
+struct TimeSpan {
+  double from = 0.0;                                       ///< s
+  double until = std::numeric_limits<double>::infinity();  ///< s
+};
+
+/// When a trajectory first leaves free space within a time span, s; none: never.
 /// Checked along the voxels of a chain of lines whose corners lie on the trajectory, at most half a
-/// voxel apart. Where the trajectory is at `from` may lie in a place that is not free: then it must
-/// reach free space within `max_escape` metres of way, through no occupied voxel.
+/// voxel apart. The trajectory may begin in a place that is not free: then it must reach free space
+/// within `max_escape` metres of way, through no occupied voxel, before it ends.
 std::optional<double> firstCollision(const Trajectory& trajectory, const FlightSpace& space,
-                                     double from, double max_escape);
+                                     const TimeSpan& span, double max_escape);
 
 }  // namespace fiimap

@@ -80,7 +80,8 @@ Bspline TrajectoryOptimizer::minimize(const Bspline& start) const {
 
 bool TrajectoryOptimizer::isFreeOrPushed(const Bspline& curve, const Bspline& guide) {
   const Trajectory trajectory(curve, 0.0);
-  const std::optional<double> first = firstCollision(trajectory, space_, 0.0, settings_.max_escape);
+  const std::optional<double> first =
+      firstCollision(trajectory, space_, {0.0}, settings_.max_escape);
   if (!first) return true;
   // Everything that is not free is pushed at once, from the first collision on.
   const double step = space_.resolution() / 2.0 / std::max(kTiny, curve.speedBound());

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSpeedPart = 0.9;         // of the limit, to fly with; the rest is for turns
 constexpr double kAccelerationPart = 0.6;  // of the limit, for speeding up; likewise
+constexpr double kBrakingPart = 0.8;       // of the limit, for a stop that is smoothed later
 constexpr double kRounding = 1e-6;         // share by which a limit may be exceeded
 constexpr int kRestKnots = 2;              // added to come to rest smoothly
 // Ever slower, until limits and obstacles allow it.
@@ -60,9 +61,10 @@ Plan TrajectoryPlanner::plan(const FlightSpace& space, const MotionState& start,
 
 Trajectory TrajectoryPlanner::stop(const MotionState& start, double start_time) const {
   const double speed = start.velocity.norm();
-  const double length = speed * speed / (2.0 * config_.max_braking);
+  const double deceleration = kBrakingPart * config_.max_braking;
+  const double length = speed * speed / (2.0 * deceleration);
   const Polyline way({start.position, start.position + length * start.velocity.stableNormalized()});
-  return {along(way, {length, speed, speed, config_.max_braking}, start), start_time};
+  return {along(way, {length, speed, speed, deceleration}, start), start_time};
 }
 
 VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIndex& start) const {
@@ -108,7 +110,7 @@ std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const Mo
   // Slowly from voxel to voxel: the slower, the nearer to a way that is known to be free.
   Bspline crawl = guideAlong(safe_way, start, kSlowest);
   const bool accepted = slowdown(crawl, start) >= 1.0 &&
-                        !firstCollision(Trajectory(crawl, 0.0), space, 0.0, config_.max_escape);
+                        !firstCollision(Trajectory(crawl, 0.0), space, {0.0}, config_.max_escape);
   return accepted ? std::optional(std::move(crawl)) : std::nullopt;
 }
 

@@ -19,6 +19,12 @@ class PlannerMap {
     offsets_ = element.offsets();
     info_.resolution = resolution;
     info_.inflation_radius = radius;
+    clear();
+  }
+
+  /// Everything is seen and free.
+  void clear() {
+    grid_.clear();
     forEachVoxel(grid_.window(), [&](const VoxelIndex& v) { grid_.set(Plane::kKnown, v, true); });
   }
 

@@ -96,38 +96,38 @@ class FirstCollisionTest : public ::testing::Test {
 };
 
 TEST_F(FirstCollisionTest, IsNoneInFreeSpace) {
-  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), 50.0, 1.0));
-  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), 999.0, 1.0));
+  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), {50.0}, 1.0));
+  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), {999.0}, 1.0));
 }
 
 TEST_F(FirstCollisionTest, IsWhenTheInflatedObstacleIsReached) {
   map_.occupy(VoxelIndex(50, 0, 0));  // inflated from 4.8 m on
-  const std::optional<double> time = firstCollision(trajectory_, map_.space(), 50.0, 1.0);
+  const std::optional<double> time = firstCollision(trajectory_, map_.space(), {50.0}, 1.0);
   ASSERT_TRUE(time);
   EXPECT_NEAR(trajectory_.at(*time).position.x(), 4.8, 0.06);
   // Behind it, all is well.
   double behind = *time;
   while (trajectory_.at(behind).position.x() < 5.4) behind += 0.01;
-  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), behind, 1.0));
+  EXPECT_FALSE(firstCollision(trajectory_, map_.space(), {behind}, 1.0));
   // One that brakes in time does not get there.
-  EXPECT_FALSE(firstCollision(trajectory_.braked(*time - 1.0, 4.0), map_.space(), 50.0, 1.0));
+  EXPECT_FALSE(firstCollision(trajectory_.braked(*time - 1.0, 4.0), map_.space(), {50.0}, 1.0));
 }
 
 TEST_F(FirstCollisionTest, AHoverCollidesWhenAnObstacleAppearsAround) {
   const Trajectory hover = Trajectory::hover({5.05, 0.05, 0.05}, 50.0);
-  EXPECT_FALSE(firstCollision(hover, map_.space(), 999.0, 1.0));
+  EXPECT_FALSE(firstCollision(hover, map_.space(), {999.0}, 1.0));
   map_.occupy(VoxelIndex(51, 0, 0));
-  EXPECT_TRUE(firstCollision(hover, map_.space(), 999.0, 1.0));
+  EXPECT_TRUE(firstCollision(hover, map_.space(), {999.0}, 1.0));
 }
 
 TEST_F(FirstCollisionTest, AWayOutOfInflatedSpaceMustBeShortAndCrossNoOccupiedVoxel) {
   map_.occupy(VoxelBox{{-3, 1, -1}, {7, 2, 1}});  // beside the way, inflated over its beginning
   const FlightSpace space = map_.space();
   ASSERT_FALSE(space.isFree(Eigen::Vector3d(0.0, 0.0, 0.0)));
-  EXPECT_FALSE(firstCollision(trajectory_, space, 50.0, 1.5));
-  EXPECT_TRUE(firstCollision(trajectory_, space, 50.0, 0.5));
+  EXPECT_FALSE(firstCollision(trajectory_, space, {50.0}, 1.5));
+  EXPECT_TRUE(firstCollision(trajectory_, space, {50.0}, 0.5));
   map_.occupy(VoxelIndex(5, 0, 0));
-  EXPECT_TRUE(firstCollision(trajectory_, map_.space(), 50.0, 1.5));
+  EXPECT_TRUE(firstCollision(trajectory_, map_.space(), {50.0}, 1.5));
 }
 
 }  // namespace
