@@ -21,8 +21,14 @@ class FlightTest : public ::testing::Test {
   FlightTest()
       : truth_({260, 120, 30}, kResolution, 0.3),
         seen_({260, 120, 30}, kResolution, 0.3),
-        flight_(config_, flight_config_, [this] { return time_ + planning_delay_; }) {
+        flight_(quick(&config_), flight_config_, [this] { return time_ + planning_delay_; }) {
     vehicle_.position = {-11.0, 0.05, 0.05};
+  }
+
+  /// A search for a goal that cannot be reached ends early.
+  static const PlannerConfig& quick(PlannerConfig* config) {
+    config->max_visited = 20000;
+    return *config;
   }
 
   void build(const VoxelBox& box) {

@@ -162,6 +162,15 @@ class PlannerFlightTest(ManagerTest):
         rospy.sleep(0.5)
         self.assertEqual(self.vehicle.commands, commands)
 
+    def test_launch_file(self):
+        self.vehicle = Vehicle([FAR_WALL], START)
+        launch = self.start('roslaunch', 'fiimap', 'planner.launch', 'manager:=manager',
+                            environment=self.environment)
+        wait_for(lambda: self.vehicle.statuses, 'a status')
+        self.wait_for_state(PlannerStatus.WAITING)
+        self.assertIn('there is no map /fiimap', self.vehicle.status().reason)
+        self.assertEqual(launch.interrupt(), 0, launch.output())
+
     def test_a_bad_parameter_is_refused_by_name_and_range(self):
         loader = self.load('fiimap/PlannerNodelet', 'planner', {'max_speed': -1.0})
         loader.wait()
