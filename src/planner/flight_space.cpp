@@ -1,16 +1,34 @@
 #include "flight_space.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "voxel_line.h"
 
 namespace fiimap {
+namespace {
+
+/// Infinite walls are beyond all voxels.
+int toHeight(double voxels) {
+  constexpr double kLowest = std::numeric_limits<int>::min();
+  constexpr double kHighest = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(voxels, kLowest, kHighest));
+}
+
+}  // namespace
 
 FlightSpace::FlightSpace(std::shared_ptr<const Snapshot> snapshot, const FlightRules& rules)
-    : snapshot_(std::move(snapshot)), rules_(rules) {}
+    : snapshot_(std::move(snapshot)), rules_(rules) {
+  const VirtualWalls& walls = snapshot_->info().walls;
+  constexpr double kRounding = 1e-9;  // voxels
+  lowest_ = toHeight(std::ceil(walls.floor / resolution() - kRounding));
+  highest_ = toHeight(std::floor(walls.ceiling / resolution() + kRounding) - 1.0);
+}
 
 bool FlightSpace::isFree(const VoxelIndex& v) const {
-  if (!isBetweenWalls(v.z())) return false;
+  if (v.z() < lowest_ || v.z() > highest_) return false;
   if (rules_.layer == FlightLayer::kRaw) {
     switch (snapshot_->occupancy(v)) {
       case Occupancy::kFree:
@@ -50,13 +68,6 @@ bool FlightSpace::isLineFree(const Eigen::Vector3d& from_W, const Eigen::Vector3
   if (!lattice().canIndex(from_W) || !lattice().canIndex(to_W)) return false;
   return forEachVoxelOnLine(from_W / resolution(), to_W / resolution(),
                             [this](const VoxelIndex& v) { return isFree(v); });
-}
-
-bool FlightSpace::isBetweenWalls(int z) const {
-  const VirtualWalls& walls = snapshot_->info().walls;
-  constexpr double kRounding = 1e-9;  // voxels
-  return z >= walls.floor / resolution() - kRounding &&
-         z + 1 <= walls.ceiling / resolution() + kRounding;
 }
 
 }  // namespace fiimap

@@ -46,10 +46,9 @@ class FlightSpace {
   bool isLineFree(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) const;
 
  private:
-  bool isBetweenWalls(int z) const;
-
   std::shared_ptr<const Snapshot> snapshot_;
   FlightRules rules_;
+  int lowest_, highest_;  ///< voxels that lie between the virtual walls with all of their height
 };
 
 }  // namespace fiimap

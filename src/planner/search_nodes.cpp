@@ -10,6 +10,8 @@ constexpr std::uint64_t kCoordinateMask = (1u << kCoordinateBits) - 1;
 constexpr std::uint64_t kHashFactor =
     0x9E3779B97F4A7C15u;  // 2^64 / golden ratio: spreads neighbours
 constexpr int kHashShift = 32;
+constexpr int kBlockBits =
+    2;  // voxels above each other in blocks of four share a line of the cache
 
 std::uint64_t keyOf(const VoxelIndex& v) {
   return (static_cast<std::uint64_t>(v.x()) << (2 * kCoordinateBits)) |
@@ -41,7 +43,8 @@ void SearchNodes::clear() {
 }
 
 std::uint32_t SearchNodes::slotOf(std::uint64_t key) const {
-  std::uint64_t slot = (key * kHashFactor >> kHashShift) & mask_;
+  const std::uint64_t block = (key >> kBlockBits) * kHashFactor >> kHashShift;
+  std::uint64_t slot = ((block << kBlockBits) | (key & ((1u << kBlockBits) - 1))) & mask_;
   while (nodes_[slot].generation == generation_ && nodes_[slot].voxel != key) {
     slot = (slot + 1) & mask_;
   }

@@ -13,6 +13,7 @@ namespace {
 constexpr int kRounds = 12;        // of minimising and pushing out
 constexpr int kEvaluations = 150;  // of the cost in one round
 constexpr double kTolerance = 1e-4;
+constexpr unsigned kRemembered = 10;     // steps of L-BFGS that estimate the curvature
 constexpr int kEnds = Bspline::kDegree;  // control points that stay at each end
 // Weights of the parts of the cost, found by trying.
 constexpr double kSmoothness = 1.0, kClearance = 100.0, kLimits = 1.0;
@@ -69,6 +70,7 @@ Bspline TrajectoryOptimizer::minimize(const Bspline& start) const {
   nlopt_set_min_objective(optimizer, evaluate, &problem);
   nlopt_set_maxeval(optimizer, kEvaluations);
   nlopt_set_ftol_rel(optimizer, kTolerance);
+  nlopt_set_vector_storage(optimizer, kRemembered);
   double cost = 0.0;
   // Whatever ended it, x is the best point so far; whether that is good enough is checked later.
   nlopt_optimize(optimizer, x.data(), &cost);

@@ -49,7 +49,7 @@ TEST_P(TrajectoryPlannerTest, FliesThroughForests) {
   config.max_speed = GetParam();
   TrajectoryPlanner planner(config);
   int plans = 0, wanted = 0;
-  for (unsigned seed = 0; seed < 25; ++seed) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE("forest " + std::to_string(seed));
     Forest forest(seed, 0.3);
     const FlightSpace space = forest.map.space();
@@ -69,7 +69,7 @@ TEST_P(TrajectoryPlannerTest, FliesThroughForests) {
   }
   RecordProperty("plans", plans);
   std::cout << GetParam() << " m/s: " << plans << " of " << wanted << " plans\n";
-  EXPECT_GE(wanted, 10);
+  EXPECT_GE(wanted, 5);
   EXPECT_EQ(plans, wanted);
 }
 
@@ -79,7 +79,7 @@ TEST(TrajectoryPlannerReplanTest, GoesOnFromAnyMomentOfATrajectory) {
   const PlannerConfig config;
   TrajectoryPlanner planner(config);
   int plans = 0, wanted = 0;
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < 7; ++seed) {
     SCOPED_TRACE("forest " + std::to_string(seed));
     Forest forest(seed, 0.3);
     const FlightSpace space = forest.map.space();
@@ -102,7 +102,7 @@ TEST(TrajectoryPlannerReplanTest, GoesOnFromAnyMomentOfATrajectory) {
     }
   }
   std::cout << plans << " of " << wanted << " plans\n";
-  EXPECT_GE(wanted, 30);
+  EXPECT_GE(wanted, 20);
   // A vehicle that flies into a turn may be too fast for it: then it goes on as before.
   EXPECT_GE(plans, wanted * 8 / 10);
 }
