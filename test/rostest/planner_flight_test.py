@@ -166,9 +166,9 @@ class PlannerFlightTest(ManagerTest):
         self.vehicle = Vehicle([FAR_WALL], START)
         launch = self.start('roslaunch', 'fiimap', 'planner.launch', 'manager:=manager',
                             environment=self.environment)
-        wait_for(lambda: self.vehicle.statuses, 'a status')
-        self.wait_for_state(PlannerStatus.WAITING)
-        self.assertIn('there is no map /fiimap', self.vehicle.status().reason)
+        wait_for(lambda: any('there is no map /fiimap' in status.reason
+                             for status in self.vehicle.statuses),
+                 lambda: f'what it needs: {self.vehicle.statuses}')
         self.assertEqual(launch.interrupt(), 0, launch.output())
 
     def test_a_bad_parameter_is_refused_by_name_and_range(self):
