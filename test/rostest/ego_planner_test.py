@@ -122,8 +122,13 @@ class EgoPlannerTest(rostest_support.MapTest):
         return self.start(program('fiimap', 'fake_ego_planner'))
 
     def report(self):
-        rospy.wait_for_service('/ego_planner_node/report')
-        message = rospy.ServiceProxy('/ego_planner_node/report', Trigger)().message
+        def ask():
+            # The planner of the test before has the same name, and may still be known to the master.
+            try:
+                return rospy.ServiceProxy('/ego_planner_node/report', Trigger)().message
+            except rospy.ServiceException:
+                return None
+        message = wait_for(ask, 'a report')
         return {key: float(value) for key, value in
                 (word.split('=') for word in message.split())}
 
@@ -170,12 +175,14 @@ class EgoPlannerTest(rostest_support.MapTest):
         self.check_wall(sends_clouds=True, sensor='cloud')
 
     def test_launch_file(self):
-        self.start('roslaunch', 'fiimap', 'ego_planner.launch', 'pkg:=fiimap',
-                   'type:=fake_ego_planner', 'odom:=/grid_map/odom', 'depth:=/grid_map/depth')
+        launch = self.start('roslaunch', 'fiimap', 'ego_planner.launch', 'pkg:=fiimap',
+                            'type:=fake_ego_planner', 'odom:=/grid_map/odom',
+                            'depth:=/grid_map/depth')
         self.sensor = Sensor(sends_clouds=False, sends_camera_poses=False)
         self.assertEqual(self.report()['resolution'], RESOLUTION)
         wait_for(lambda: rospy.get_param('/ego_planner_node/fiimap/max_ray_length', '') == '4.5',
                  'the parameters')
+        self.assertEqual(launch.interrupt(), 0, launch.output())
 
     def test_parameters_of_the_map_win(self):
         self.start_planner(fiimap={'resolution': 0.2})
