@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <Eigen/Core>
+
+#include <fiimap/snapshot.h>
+
+/// The map as ego-planner's packages call it. A fiimap/MappingNodelet makes it in threads of its
+/// own inside of the planner's process; callbacks of the planner's thread only take its newest
+/// snapshot, so that a plan sees one map from its beginning to its end. Not thread-safe: to be
+/// called from the thread that spins the node handle's callbacks.
+class GridMap {
+ public:
+  typedef std::shared_ptr<GridMap> Ptr;
+
+  GridMap();
+  ~GridMap();
+  GridMap(const GridMap&) = delete;
+  GridMap& operator=(const GridMap&) = delete;
+
+  /// Reads the parameters ~grid_map/... and starts the map.
+  /// \param nh the planner's private node handle.
+  /// \throws std::runtime_error when the map cannot be started; the reason was logged.
+  void initMap(ros::NodeHandle& nh);
+
+  /// Edge length of a voxel, metres.
+  double getResolution() { return resolution_; }
+
+  /// 1: inflated; 0: free or unknown; -1: outside of the map. Takes no lock.
+  /// \param position metres, map frame.
+  int getInflateOccupancy(Eigen::Vector3d position);
+  /// The same for what was measured: 1 where an obstacle is.
+  int getOccupancy(Eigen::Vector3d position);
+
+  /// Whether scans came and then none for ~grid_map/odom_depth_timeout seconds: the planner should
+  /// stop.
+  bool getOdomDepthTimeout();
+
+ private:
+  class Mapping;  // what runs the map; keeps its headers out of here
+
+  int withoutSnapshot(const Eigen::Vector3d& position) const;
+
+  double resolution_ = 0.0;
+  double timeout_ = 0.0;  // s
+  std::shared_ptr<const fiimap::Snapshot> snapshot_;
+  std::unique_ptr<Mapping> mapping_;
+};
+
+// Here because it is called a million times in a plan.
+inline int GridMap::getInflateOccupancy(Eigen::Vector3d position) {
+  if (!snapshot_) return withoutSnapshot(position);
+  switch (snapshot_->inflation(position)) {
+    case fiimap::Inflation::kInflated:
+      return 1;
+    case fiimap::Inflation::kOutside:
+      return -1;
+    default:
+      return 0;
+  }
+}
+
+inline int GridMap::getOccupancy(Eigen::Vector3d position) {
+  if (!snapshot_) return withoutSnapshot(position);
+  switch (snapshot_->occupancy(position)) {
+    case fiimap::Occupancy::kOccupied:
+      return 1;
+    case fiimap::Occupancy::kOutside:
+      return -1;
+    default:
+      return 0;
+  }
+}

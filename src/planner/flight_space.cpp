@@ -1,0 +1,73 @@
+#include "flight_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "voxel_line.h"
+
+namespace fiimap {
+namespace {
+
+/// Infinite walls are beyond all voxels.
+int toHeight(double voxels) {
+  constexpr double kLowest = std::numeric_limits<int>::min();
+  constexpr double kHighest = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(voxels, kLowest, kHighest));
+}
+
+}  // namespace
+
+FlightSpace::FlightSpace(std::shared_ptr<const Snapshot> snapshot, const FlightRules& rules)
+    : snapshot_(std::move(snapshot)), rules_(rules) {
+  const VirtualWalls& walls = snapshot_->info().walls;
+  constexpr double kRounding = 1e-9;  // voxels
+  lowest_ = toHeight(std::ceil(walls.floor / resolution() - kRounding));
+  highest_ = toHeight(std::floor(walls.ceiling / resolution() + kRounding) - 1.0);
+}
+
+bool FlightSpace::isFree(const VoxelIndex& v) const {
+  if (v.z() < lowest_ || v.z() > highest_) return false;
+  if (rules_.layer == FlightLayer::kRaw) {
+    switch (snapshot_->occupancy(v)) {
+      case Occupancy::kFree:
+        return true;
+      case Occupancy::kUnknown:
+        return rules_.unknown == Unseen::kFree;
+      case Occupancy::kOutside:
+        return rules_.outside == Unseen::kFree;
+      case Occupancy::kOccupied:
+        return false;
+    }
+  }
+  switch (snapshot_->inflation(v)) {
+    case Inflation::kFree:
+      return true;
+    case Inflation::kUnknown:
+      return rules_.unknown == Unseen::kFree;
+    case Inflation::kOutside:
+      return rules_.outside == Unseen::kFree;
+    case Inflation::kInflated:
+      return false;
+  }
+  return false;
+}
+
+bool FlightSpace::isFree(const Eigen::Vector3d& point_W) const {
+  return lattice().canIndex(point_W) && isFree(lattice().indexOf(point_W));
+}
+
+bool FlightSpace::isCrossable(const VoxelIndex& v) const {
+  const Occupancy occupancy = snapshot_->occupancy(v);
+  if (occupancy == Occupancy::kOutside) return rules_.outside == Unseen::kFree;
+  return occupancy != Occupancy::kOccupied;
+}
+
+bool FlightSpace::isLineFree(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) const {
+  if (!lattice().canIndex(from_W) || !lattice().canIndex(to_W)) return false;
+  return forEachVoxelOnLine(from_W / resolution(), to_W / resolution(),
+                            [this](const VoxelIndex& v) { return isFree(v); });
+}
+
+}  // namespace fiimap

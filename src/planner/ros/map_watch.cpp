@@ -1,0 +1,62 @@
+#include "map_watch.h"
+
+#include <sstream>
+
+namespace fiimap {
+
+MapWatch::MapWatch(ros::NodeHandle node, const std::string& map, double timeout)
+    : map_(map), timeout_(timeout) {
+  constexpr int kQueue = 1;
+  subscriber_ = node.subscribe(map + "/map_handle", kQueue, &MapWatch::onMap, this);
+}
+
+void MapWatch::onMap(const MapHandleMessage::ConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frame_ = message->info.header.frame_id;
+  // Null when the map is in another process.
+  if (message->handle) handle_ = message->handle;
+}
+
+MapWatch::View MapWatch::look(double time) {
+  const bool is_connected = subscriber_.getNumPublishers() > 0;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (was_connected_ && !is_connected) {
+    // Its last snapshot will never be renewed; one that comes back has another handle.
+    handle_.reset();
+    newest_.reset();
+    is_gone_ = true;
+  }
+  was_connected_ = is_connected;
+  if (!handle_) handle_ = MapRegistry::find(map_);
+  const std::shared_ptr<const Snapshot> snapshot = handle_ ? handle_->latest() : nullptr;
+  if (snapshot && snapshot != newest_) {
+    newest_ = snapshot;
+    newest_time_ = time;
+    is_gone_ = false;
+  }
+  return {snapshot, findTrouble(time)};
+}
+
+std::string MapWatch::findTrouble(double time) const {
+  if (is_gone_) return "the mapping nodelet " + map_ + " is gone";
+  if (!handle_) {
+    return "there is no map " + map_ +
+           ": load fiimap/MappingNodelet with this name into the same nodelet manager, or set the "
+           "parameter map";
+  }
+  if (!newest_) return "the map " + map_ + " has no scan yet: see its warnings and /diagnostics";
+  if (time - newest_time_ > timeout_) {
+    std::ostringstream text;
+    text << "the map " << map_ << " had no new scan for more than " << timeout_
+         << " s: see its warnings and /diagnostics";
+    return text.str();
+  }
+  return "";
+}
+
+std::string MapWatch::frame() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frame_;
+}
+
+}  // namespace fiimap

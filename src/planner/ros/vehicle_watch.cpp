@@ -1,0 +1,46 @@
+#include "vehicle_watch.h"
+
+#include <sstream>
+
+#include "planner_messages.h"
+
+namespace fiimap {
+
+VehicleWatch::VehicleWatch(ros::NodeHandle node, double timeout) : timeout_(timeout) {
+  constexpr int kQueue = 10;
+  subscriber_ = node.subscribe("odom", kQueue, &VehicleWatch::onOdometry, this);
+}
+
+void VehicleWatch::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_ = message;
+  newest_time_ = ros::Time::now().toSec();
+}
+
+VehicleWatch::View VehicleWatch::look(double time, const std::string& map_frame) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  View view;
+  if (!newest_) {
+    view.trouble = "there is no odometry on " + subscriber_.getTopic();
+    return view;
+  }
+  view.state = toVehicleState(*newest_);
+  std::ostringstream trouble;
+  const std::string& frame = newest_->header.frame_id;
+  if (time - newest_time_ > timeout_) {
+    trouble << "there was no odometry for more than " << timeout_ << " s";
+  } else if (!isFinite(view.state)) {
+    trouble << "the odometry is not finite";
+  } else if (!map_frame.empty() && frame != map_frame) {
+    trouble << "the odometry is in the frame " << frame << ", the map in " << map_frame;
+  }
+  view.trouble = trouble.str();
+  return view;
+}
+
+std::string VehicleWatch::bodyFrame() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_ ? newest_->child_frame_id : "";
+}
+
+}  // namespace fiimap

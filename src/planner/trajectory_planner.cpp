@@ -1,0 +1,126 @@
+#include "trajectory_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "trajectory_optimizer.h"
+
+namespace fiimap {
+namespace {
+
+constexpr double kSpeedPart = 0.9;         // of the limit, to fly with; the rest is for turns
+constexpr double kAccelerationPart = 0.6;  // of the limit, for speeding up; likewise
+constexpr double kBrakingPart = 0.8;       // of the limit, for a stop that is smoothed later
+constexpr double kRounding = 1e-6;         // share by which a limit may be exceeded
+constexpr int kRestKnots = 2;              // added to come to rest smoothly
+// Ever slower, until limits and obstacles allow it.
+constexpr int kAttempts = 4;
+constexpr double kSlower = 0.65, kMuchSlower = 0.4;  // share of the speed for the next attempt
+constexpr double kSlowest = 0.2;
+
+/// Speed towards the beginning of a way.
+double speedAlong(const MotionState& start, const Polyline& way) {
+  constexpr double kLook = 0.5;  // m
+  const Eigen::Vector3d ahead = way.at(kLook) - start.position;
+  return ahead.norm() > 0.0 ? std::max(0.0, start.velocity.dot(ahead.normalized())) : 0.0;
+}
+
+}  // namespace
+
+TrajectoryPlanner::TrajectoryPlanner(const PlannerConfig& config)
+    : config_(config), search_(static_cast<std::size_t>(config.max_visited)) {}
+
+Plan TrajectoryPlanner::plan(const FlightSpace& space, const MotionState& start, double start_time,
+                             const Eigen::Vector3d& goal) {
+  Plan plan;
+  const VoxelLattice& lattice = space.lattice();
+  if (!lattice.canIndex(start.position) || !lattice.canIndex(goal)) return plan;
+  const VoxelIndex first = lattice.indexOf(start.position);
+  const VoxelBox region = regionAround(space, first);
+  if (!region.contains(first)) return plan;
+
+  const VoxelPath path = search_.find(space, first, lattice.indexOf(goal), region,
+                                      config_.max_escape / space.resolution());
+  plan.end = path.end;
+  plan.visited = path.visited;
+  if (path.end == PathEnd::kNowhere) return plan;
+
+  const Eigen::Vector3d end =
+      path.end == PathEnd::kGoal ? goal : lattice.centerOf(path.voxels.back());
+  const Polyline through = throughCenters(path, start.position, end, lattice);
+  // The way out stays as it was found: its first free point is behind the start and the way's
+  // voxels.
+  const std::size_t kept = path.escape > 0 ? path.escape + 2 : 1;
+  const Polyline way = shortcut(through, space, kept);
+  plan.path = way.points();
+  std::optional<Bspline> curve = fly(space, start, way, through);
+  if (curve) plan.trajectory.emplace(*std::move(curve), start_time);
+  return plan;
+}
+
+Trajectory TrajectoryPlanner::stop(const MotionState& start, double start_time) const {
+  const double speed = start.velocity.norm();
+  const double deceleration = kBrakingPart * config_.max_braking;
+  const double length = speed * speed / (2.0 * deceleration);
+  const Polyline way({start.position, start.position + length * start.velocity.stableNormalized()});
+  return {along(way, {length, speed, speed, deceleration}, start), start_time};
+}
+
+VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIndex& start) const {
+  const int reach = static_cast<int>(std::ceil(config_.planning_horizon / space.resolution()));
+  const VoxelBox region{start.array() - reach, start.array() + reach + 1};
+  return space.endsAtWindow() ? region.intersection(space.snapshot().window()) : region;
+}
+
+Bspline TrajectoryPlanner::along(const Polyline& way, const SpeedProfile& profile,
+                                 const MotionState& start) const {
+  const double interval = config_.knot_interval;
+  const int segments = std::max(
+      Bspline::kDegree, static_cast<int>(std::ceil(profile.duration() / interval)) + kRestKnots);
+  Bspline::Points control = Bspline::controlOf(start, interval);
+  // The second control point belongs to the start, the one before the last to the end.
+  for (int i = Bspline::kDegree; i < segments; ++i) {
+    control.push_back(way.at(profile.at((i - 1) * interval)));
+  }
+  for (int i = 0; i < Bspline::kDegree; ++i) control.push_back(way.points().back());
+  return {std::move(control), interval};
+}
+
+Bspline TrajectoryPlanner::guideAlong(const Polyline& way, const MotionState& start,
+                                      double speed_factor) const {
+  const SpeedProfile profile(way.length(), speedAlong(start, way),
+                             speed_factor * kSpeedPart * config_.max_speed,
+                             kAccelerationPart * config_.max_acceleration);
+  return along(way, profile, start);
+}
+
+std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const MotionState& start,
+                                              const Polyline& way, const Polyline& safe_way) const {
+  TrajectoryOptimizer optimizer(
+      space,
+      {{config_.max_speed, config_.max_acceleration}, config_.clearance, config_.max_escape});
+  double factor = 1.0;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::optional<Bspline> curve = optimizer.optimize(guideAlong(way, start, factor));
+    const double share = curve ? slowdown(*curve, start) : kSlower;
+    if (curve && share >= 1.0) return curve;
+    factor = std::max(kSlowest, factor * std::clamp(share, kMuchSlower, kSlower));
+  }
+  // Slowly from voxel to voxel: the slower, the nearer to a way that is known to be free.
+  Bspline crawl = guideAlong(safe_way, start, kSlowest);
+  const bool accepted = slowdown(crawl, start) >= 1.0 &&
+                        !firstCollision(Trajectory(crawl, 0.0), space, {0.0}, config_.max_escape);
+  return accepted ? std::optional(std::move(crawl)) : std::nullopt;
+}
+
+double TrajectoryPlanner::slowdown(const Bspline& curve, const MotionState& start) const {
+  const double max_speed = std::max(config_.max_speed, start.velocity.norm());
+  const double max_acceleration = std::max(config_.max_acceleration, start.acceleration.norm());
+  const double speed = std::max(kRounding, curve.speedBound());
+  const double acceleration = std::max(kRounding, curve.accelerationBound());
+  return (1.0 + kRounding) *
+         std::min(max_speed / speed, std::sqrt(max_acceleration / acceleration));
+}
+
+}  // namespace fiimap
