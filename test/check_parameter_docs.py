@@ -15,7 +15,8 @@ import sys
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-OF_OTHER_NODES = {'simulator.yaml'}
+OF_OTHER_NODES = {
+    'demo_planner.yaml', 'demo_simulator.yaml', 'ego_planner.yaml', 'planner.yaml', 'simulator.yaml'}
 
 class Parameter:
     def __init__(self, line):
