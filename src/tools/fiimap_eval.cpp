@@ -55,11 +55,12 @@ po::options_description describe(fiimap::AccuracyOptions* accuracy) {
       "split", po::value(&accuracy->split)->value_name("FILE"),
       "lines \"INDEX build\" or \"INDEX test\": which scans are held out")(
       "folds", po::value(&accuracy->folds)->value_name("N"),
-      "without --split: hold out every N-th scan (10)")(
+      "hold out each of N folds in turn; without it, the last of 10 only")(
       "fold", po::value(&accuracy->fold)->value_name("K"),
-      "those with index % N == K; default: the last")(
+      "hold out the scans with index % N == K only")(
       "held-out-step", po::value(&accuracy->held_out_step)->value_name("PIXELS"),
       "look at every n-th pixel of every n-th row of the held-out scans (4)")(
+      "octomap", po::bool_switch(&accuracy->octomap), "the same with OctoMap, for comparison")(
       "csv", po::bool_switch(&accuracy->csv), "print the table as CSV");
   return options;
 }

@@ -77,7 +77,7 @@ int run(const RunOptions& options) {
   builder.play(input);
   const RunReport report = builder.finish();
 
-  for (const std::string& warning : builder.warnings()) std::cerr << "warning: " << warning << '\n';
+  builder.printWarnings();
   std::cout << options.input.bag << '\n' << report.text();
   nlohmann::json json = report.json();
   json["warnings"] = builder.warnings();

@@ -1,5 +1,7 @@
 #include "scan_evaluator.h"
 
+#include <iostream>
+
 #include "bag_player.h"
 
 namespace fiimap {
@@ -23,6 +25,10 @@ void ScanEvaluator::play(const EvaluationInput& input) {
   progress_ = &progress;
   player.play(this, &counters_);
   progress_ = nullptr;
+}
+
+void ScanEvaluator::printWarnings() const {
+  for (const std::string& warning : warnings_) std::cerr << "warning: " << warning << '\n';
 }
 
 void ScanEvaluator::onScan(const SynchronizedScan& scan) {

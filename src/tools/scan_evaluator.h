@@ -26,6 +26,8 @@ class ScanEvaluator : private ScanListener {
   const ScanCounters& counters() const { return counters_; }
   /// Each kind of trouble once; the counters tell how often.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// On standard error, a line each.
+  void printWarnings() const;
 
  protected:
   /// Takes one scan. \param index in the recording; scans that are dropped count.

@@ -83,9 +83,7 @@ int evaluateTruth(const TruthOptions& options) {
                              options.snapshots);
   comparison.play(input);
 
-  for (const std::string& warning : comparison.warnings()) {
-    std::cerr << "warning: " << warning << '\n';
-  }
+  comparison.printWarnings();
   std::cout << toText(comparison.rows(), options.csv);
   nlohmann::json json = toJson(comparison.counters());
   json["warnings"] = comparison.warnings();

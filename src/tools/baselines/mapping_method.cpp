@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "baselines/ego_style_map.h"
-#include "baselines/octomap_map.h"
-#include "baselines/per_pixel_map.h"
+#include "ego_style_map.h"
+#include "octomap_map.h"
+#include "per_pixel_map.h"
 
 namespace fiimap::bench {
 namespace {
@@ -15,7 +15,7 @@ class FiimapMethod : public MappingMethod {
   explicit FiimapMethod(const MapperConfig& config) : mapper_(config) {}
 
   void integrate(const Frame& frame) override {
-    mapper_.integrate(frame.image.view, frame.intrinsics, frame.pose);
+    fiimap::bench::integrate(frame, &mapper_);
     snapshot_ = mapper_.snapshot();
   }
   std::vector<VoxelIndex> occupied(const VoxelBox& box) const override {

@@ -35,7 +35,7 @@ std::vector<InflationStep> recordInflationSteps(const std::vector<Frame>& frames
   Mapper mapper(config);
   std::vector<VoxelIndex> before;
   for (const Frame& frame : frames) {
-    mapper.integrate(frame.image.view, frame.intrinsics, frame.pose);
+    integrate(frame, &mapper);
     InflationStep step;
     step.window = mapper.grid().window();
     step.update_box = updateBox(config, frame.pose).intersection(step.window);

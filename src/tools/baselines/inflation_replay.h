@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "baselines/batch_inflation.h"
+#include "batch_inflation.h"
 #include "fiimap/inflater.h"
 #include "mapping_method.h"
 
