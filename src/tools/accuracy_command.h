@@ -20,8 +20,8 @@ struct AccuracyOptions {
   bool csv = false;       ///< print the table as CSV
 };
 
-/// \return 0; 1 when no scan could be held out.
-/// \throws std::exception with a message for the user when input or settings are bad.
+/// \return 0. \throws std::exception with a message for the user when input or settings are bad, or
+/// no scan could be held out.
 int evaluateAccuracy(const AccuracyOptions& options);
 
 }  // namespace fiimap

@@ -1,6 +1,7 @@
 #include "scan_evaluator.h"
 
 #include <iostream>
+#include <stdexcept>
 
 #include "bag_player.h"
 
@@ -25,6 +26,11 @@ void ScanEvaluator::play(const EvaluationInput& input) {
   progress_ = &progress;
   player.play(this, &counters_);
   progress_ = nullptr;
+  if (counters_.integrated > 0) return;
+  progress.end();
+  throw std::runtime_error("no scan could be integrated: " + (counters_.received == 0
+                                                                  ? "the recording holds none"
+                                                                  : counters_.last_drop));
 }
 
 void ScanEvaluator::printWarnings() const {

@@ -21,6 +21,7 @@ nlohmann::json toJson(const ScanCounters& counters);
 class ScanEvaluator : private ScanListener {
  public:
   /// Plays the whole recording.
+  /// \throws std::runtime_error that tells why, when no scan could be used.
   void play(const EvaluationInput& input);
 
   const ScanCounters& counters() const { return counters_; }
