@@ -23,7 +23,7 @@ def label_of(method):
 
 def data_uri(figure):
     buffer = io.BytesIO()
-    figure.savefig(buffer, format='png', dpi=DPI)
+    figure.savefig(buffer, format='png', dpi=DPI, bbox_inches='tight')
     pyplot.close(figure)
     return 'data:image/png;base64,' + base64.b64encode(buffer.getvalue()).decode()
 
@@ -76,6 +76,7 @@ def compare_figures(compare, csv_text):
             axes.set_yscale('log')
             if x is scores:
                 axes.set_xscale('symlog')
+                axes.set_xlim(left=-0.5)
                 axes.axvline(PAPER_MARK, color='grey', linestyle='--', linewidth=1,
                              label="the paper's mark, 150")
             axes.legend(fontsize='small')

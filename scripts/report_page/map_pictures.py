@@ -62,7 +62,7 @@ def view_3d(occupied, inflated):
     axes = figure.add_subplot(111, projection='3d')
     axes.set_title(title)
     grey, solid = thinned(inflated), thinned(occupied)
-    axes.scatter(*grey.T, c='0.6', s=0.5, alpha=0.08, linewidths=0)
+    axes.scatter(*grey.T, c='0.5', s=1.0, alpha=0.12, linewidths=0)
     axes.scatter(*solid.T, c=solid[:, 2], cmap='viridis', s=1.5, alpha=0.8, linewidths=0)
     if hasattr(axes, 'set_box_aspect'):  # since matplotlib 3.3
         axes.set_box_aspect(numpy.maximum(numpy.ptp(occupied, axis=0), 1.0))
@@ -85,9 +85,9 @@ def pictures(folder, resolution):
     side = occupied[numpy.argsort(-occupied[:, 1], kind='stable')]
     return [
         plane_view('From above, without the highest tenth',
-                   [(inflated, '0.88', grey), (low, low[:, 2], height)], 0, 1,
+                   [(inflated, '0.75', grey), (low, low[:, 2], height)], 0, 1,
                    ('x, m', 'y, m', 'height, m'), resolution),
-        plane_view('From the side', [(inflated, '0.88', grey), (side, side[:, 1], height)], 0, 2,
+        plane_view('From the side', [(inflated, '0.75', grey), (side, side[:, 1], height)], 0, 2,
                    ('x, m', 'z, m', 'y, m'), resolution),
         view_3d(occupied, inflated),
     ]

@@ -119,7 +119,7 @@ class ReportTest(unittest.TestCase):
         for image in images:
             (width, height), pixels = pixels_of(base64.b64decode(image.split(',')[1]))
             self.assertGreater(width, 300)
-            self.assertGreater(height, 200)
+            self.assertGreater(height, 100)
             self.assertGreater(len(set(pixels)), 16, 'one colour only')
 
     def test_numbers_equal_those_of_the_commands(self):
