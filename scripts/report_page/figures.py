@@ -10,6 +10,7 @@ from matplotlib import pyplot  # noqa: E402  the backend must be chosen first
 DPI = 100
 SIZE = (6.4, 4.2)  # inches
 PAPER_MARK = 150   # change score above which the paper's method is slower than batch inflation
+MIN_UPDATES = 20   # the first updates of a recording say little about the others
 LABELS = {
     'incremental': 'fiimap, incremental', 'bfs6': "the paper's search (6)", 'bfs18': 'search (18)',
     'bfs26': 'search (26)', 'batch': 'all anew (bits)', 'byte_batch': 'ego-planner-style batch',
@@ -38,9 +39,12 @@ def new_figure(title, x_label, y_label, size=SIZE):
 
 
 def sweep_figures(sweep):
-    """Figure 6: a plot for each shape and resolution."""
+    """Figure 6: a plot for each shape and resolution, without series whose time was up at once."""
     groups = {}
+    all_updates = max(row['updates'] for row in sweep['results'])
     for row in sweep['results']:
+        if row['updates'] < min(all_updates, MIN_UPDATES):
+            continue
         series = groups.setdefault((row['shape'], row['resolution']), {})
         series.setdefault(row['method'], []).append((row['reach'], row['median_us']))
     images = []

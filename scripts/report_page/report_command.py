@@ -6,7 +6,6 @@ import pathlib
 import shutil
 import sys
 
-import page
 from steps import Step, StepError, write_whole
 
 VERIFY_EVERY = 50           # scans
@@ -99,6 +98,7 @@ def report_on(bag, name, program, arguments):
         if new_folder and done == 0:
             shutil.rmtree(folder, ignore_errors=True)
         raise
+    import page  # here, because matplotlib takes a second, which bad input need not wait for
     write_whole(arguments.output / f'{name}.html',
                 page.render(name, bag, folder, steps, arguments.jobs))
 
