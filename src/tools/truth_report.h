@@ -14,7 +14,7 @@
 namespace fiimap {
 
 /// How a map compares with the exact scene, summed over the moments at which it was compared.
-/// docs/accuracy.md defines the shares.
+/// docs/evaluation.md defines the shares.
 struct TruthCount {
   std::size_t snapshots = 0;
   std::size_t occupied = 0;  ///< occupied voxels, but near what comes, goes or moves
