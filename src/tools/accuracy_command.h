@@ -12,15 +12,16 @@ namespace fiimap {
 struct AccuracyOptions {
   InputOptions input;
   std::vector<double> resolutions;  ///< m; empty: that of the configuration
-  std::string split;                ///< file that names the held-out scans; empty: fold of folds
-  int fold = -1;                    ///< -1: the last
-  int folds = 10;
+  std::string split;                ///< file that names the held-out scans; empty: folds
+  int folds = 0;          ///< number of folds, each held out in turn; 0: the last one of 10 only
+  int fold = -1;          ///< hold out this one only; -1: as `folds` says
   int held_out_step = 4;  ///< pixels
+  bool octomap = false;   ///< the same with OctoMap, and how far the two maps agree
   bool csv = false;       ///< print the table as CSV
 };
 
-/// \return 0; 1 when no scan could be held out.
-/// \throws std::exception with a message for the user when input or settings are bad.
+/// \return 0. \throws std::exception with a message for the user when input or settings are bad, or
+/// no scan could be held out.
 int evaluateAccuracy(const AccuracyOptions& options);
 
 }  // namespace fiimap

@@ -30,9 +30,10 @@ MeanAndDeviation shareOfRays(const std::vector<ScanPrediction>& scans,
 
 }  // namespace
 
-AccuracyRow summarise(const std::string& variant, double resolution,
+AccuracyRow summarise(const std::string& method, const std::string& variant, double resolution,
                       const std::vector<ScanPrediction>& scans) {
   AccuracyRow row;
+  row.method = method;
   row.variant = variant;
   row.resolution = resolution;
   for (const ScanPrediction& scan : scans) row.held_out_scans += scan.rays > 0 ? 1 : 0;
@@ -47,6 +48,7 @@ AccuracyRow summarise(const std::string& variant, double resolution,
 
 nlohmann::json toJson(const AccuracyRow& row) {
   return {
+      {"method", row.method},
       {"variant", row.variant},
       {"resolution", row.resolution},
       {"held_out_scans", row.held_out_scans},
@@ -59,16 +61,16 @@ nlohmann::json toJson(const AccuracyRow& row) {
 }
 
 std::string toText(const std::vector<AccuracyRow>& rows, bool csv) {
-  std::string text =
-      csv ? "variant,resolution,held_out_scans,hit_rate_mean,hit_rate_std,"
-            "hit_rate_within_one_voxel_mean,blocked_rate_mean,outside_rate_mean\n"
-          : "variant     resolution  scans      hit     +-  within 1 voxel  blocked  outside\n";
-  const char* format = csv ? "%s,%g,%zu,%.6f,%.6f,%.6f,%.6f,%.6f\n"
-                           : "%-10s %9g m %6zu    %.4f  %.3f          %.4f   %.4f   %.4f\n";
+  std::string text = csv ? "method,variant,resolution,held_out_scans,hit_rate_mean,hit_rate_std,"
+                           "hit_rate_within_one_voxel_mean,blocked_rate_mean,outside_rate_mean\n"
+                         : "method   variant     resolution  scans      hit     +-  within 1 voxel "
+                           " blocked  outside\n";
+  const char* format = csv ? "%s,%s,%g,%zu,%.6f,%.6f,%.6f,%.6f,%.6f\n"
+                           : "%-8s %-10s %9g m %6zu    %.4f  %.3f          %.4f   %.4f   %.4f\n";
   for (const AccuracyRow& row : rows) {
     char line[160];
-    std::snprintf(line, sizeof(line), format, row.variant.c_str(), row.resolution,
-                  row.held_out_scans, row.hit_rate_mean, row.hit_rate_std,
+    std::snprintf(line, sizeof(line), format, row.method.c_str(), row.variant.c_str(),
+                  row.resolution, row.held_out_scans, row.hit_rate_mean, row.hit_rate_std,
                   row.hit_rate_within_one_voxel_mean, row.blocked_rate_mean, row.outside_rate_mean);
     text += line;
   }

@@ -8,10 +8,11 @@
 
 namespace fiimap {
 
-/// Figures of one map (variant and resolution) over the held-out scans; each is the mean over scans
-/// of the share of a scan's rays.
+/// Figures of one kind of map (method, variant and resolution) over the held-out scans of all
+/// folds; each is the mean over scans of the share of a scan's rays.
 struct AccuracyRow {
-  std::string variant;
+  std::string method;       ///< which map: fiimap or octomap
+  std::string variant;      ///< final_map or online
   double resolution = 0.0;  ///< m
   std::size_t held_out_scans = 0;
   double hit_rate_mean = 0.0;
@@ -22,7 +23,7 @@ struct AccuracyRow {
 };
 
 /// Scans without any return do not count.
-AccuracyRow summarise(const std::string& variant, double resolution,
+AccuracyRow summarise(const std::string& method, const std::string& variant, double resolution,
                       const std::vector<ScanPrediction>& scans);
 
 /// Keys are the names of the fields.

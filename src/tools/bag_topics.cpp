@@ -7,6 +7,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <set>
 #include <stdexcept>
@@ -135,6 +136,11 @@ BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, Bag
           bag, frame_is_open, "geometry_msgs/TransformStamped", &topics, config);
       break;
     case PoseSource::kTf:
+      if (topicsOfType<tf2_msgs::TFMessage>(bag).empty()) {
+        throw std::invalid_argument(
+            "the bag holds no poses: no nav_msgs/Odometry, geometry_msgs/PoseStamped, "
+            "geometry_msgs/TransformStamped or tf2_msgs/TFMessage");
+      }
       break;
   }
   return topics;

@@ -5,7 +5,11 @@
 #include <string>
 
 #include "accuracy_command.h"
+#include "compare_command.h"
+#include "health/health_command.h"
+#include "report_command.h"
 #include "run_command.h"
+#include "sweep_command.h"
 #include "truth_command.h"
 
 namespace {
@@ -17,10 +21,18 @@ constexpr char kUsage[] =
     "  fiimap_eval run BAG [options]       builds the map of a bag as the nodelet would, and "
     "prints\n"
     "                                      what it cost\n"
+    "  fiimap_eval health BAG [options]    tells rates, gaps and delays of the recording, and "
+    "what\n"
+    "                                      its readings are\n"
     "  fiimap_eval accuracy BAG [options]  holds scans out and compares them with the map of the\n"
     "                                      others\n"
+    "  fiimap_eval sweep BAG [options]     times inflation by resolution, radius, shape and "
+    "method\n"
+    "  fiimap_eval compare BAG [options]   times every update with this map and with others, in "
+    "turns\n"
     "  fiimap_eval truth BAG [options]     compares the map with the exact scene of a synthetic\n"
     "                                      recording\n"
+    "  fiimap_eval report BAG... -o DIR    all of these, as a page to look at; --help tells more\n"
     "  fiimap_eval parameters              lists the parameters of map and node: name, default,\n"
     "                                      unit, allowed values, meaning\n\n"
     "Topics that are not found by type are set like parameters: depth_topic, camera_info_topic, "
@@ -47,6 +59,10 @@ po::options_description describe(fiimap::RunOptions* run) {
   return options;
 }
 
+po::options_description describe(fiimap::HealthOptions* health) {
+  return describe("Options of health", &health->input);
+}
+
 po::options_description describe(fiimap::AccuracyOptions* accuracy) {
   po::options_description options = describe("Options of accuracy", &accuracy->input);
   options.add_options()("resolutions",
@@ -55,12 +71,40 @@ po::options_description describe(fiimap::AccuracyOptions* accuracy) {
       "split", po::value(&accuracy->split)->value_name("FILE"),
       "lines \"INDEX build\" or \"INDEX test\": which scans are held out")(
       "folds", po::value(&accuracy->folds)->value_name("N"),
-      "without --split: hold out every N-th scan (10)")(
+      "hold out each of N folds in turn; without it, the last of 10 only")(
       "fold", po::value(&accuracy->fold)->value_name("K"),
-      "those with index % N == K; default: the last")(
+      "hold out the scans with index % N == K only")(
       "held-out-step", po::value(&accuracy->held_out_step)->value_name("PIXELS"),
       "look at every n-th pixel of every n-th row of the held-out scans (4)")(
+      "octomap", po::bool_switch(&accuracy->octomap), "the same with OctoMap, for comparison")(
       "csv", po::bool_switch(&accuracy->csv), "print the table as CSV");
+  return options;
+}
+
+po::options_description describe(fiimap::SweepOptions* sweep) {
+  po::options_description options = describe("Options of sweep", &sweep->input);
+  options.add_options()("resolutions",
+                        po::value(&sweep->resolutions)->multitoken()->value_name("M..."),
+                        "voxel sizes (0.2 0.1 0.05)")(
+      "reaches", po::value(&sweep->reaches)->multitoken()->value_name("L..."),
+      "how far to inflate, voxels (1 to 10)")(
+      "methods", po::value(&sweep->methods)->multitoken()->value_name("NAME..."),
+      "of incremental, bfs6, bfs18, bfs26, batch, byte_batch; default: all")(
+      "shapes", po::value(&sweep->shapes)->multitoken()->value_name("NAME..."),
+      "of ball, cube, diamond (ball)")("seconds", po::value(&sweep->seconds)->value_name("S"),
+                                       "end a series after this much CPU time (5)")(
+      "csv", po::bool_switch(&sweep->csv), "print the table as CSV");
+  return options;
+}
+
+po::options_description describe(fiimap::CompareOptions* compare) {
+  po::options_description options = describe("Options of compare", &compare->input);
+  options.add_options()(
+      "methods", po::value(&compare->methods)->multitoken()->value_name("NAME..."),
+      "inflation alone: incremental, bfs6, bfs18, bfs26, batch, byte_batch; whole "
+      "maps: fiimap, ego, ego_invalid_far, per_pixel, octomap (incremental bfs6 "
+      "byte_batch fiimap ego octomap)")("csv", po::bool_switch(&compare->csv),
+                                        "print a row for every update as CSV");
   return options;
 }
 
@@ -72,6 +116,8 @@ po::options_description describe(fiimap::TruthOptions* truth) {
       "voxel sizes, one map each; default: that of the configuration")(
       "snapshots", po::value(&truth->snapshots)->value_name("N"),
       "compare the map this often, evenly over the recording (10)")(
+      "voxels", po::value(&truth->voxels)->value_name("FILE"),
+      "write the occupied voxels of the last map with their distance from the surface (CSV)")(
       "csv", po::bool_switch(&truth->csv), "print the table as CSV");
   return options;
 }
@@ -105,9 +151,17 @@ int runCommand(int argc, char** argv, int (*command)(const Options&)) {
 
 int printHelp() {
   fiimap::RunOptions run;
+  fiimap::HealthOptions health;
   fiimap::AccuracyOptions accuracy;
+  fiimap::SweepOptions sweep;
+  fiimap::CompareOptions compare;
   fiimap::TruthOptions truth;
-  std::cout << kUsage << describe(&run) << '\n' << describe(&accuracy) << '\n' << describe(&truth);
+  std::cout << kUsage << describe(&run) << '\n'
+            << describe(&health) << '\n'
+            << describe(&accuracy) << '\n'
+            << describe(&sweep) << '\n'
+            << describe(&compare) << '\n'
+            << describe(&truth);
   return 0;
 }
 
@@ -115,6 +169,10 @@ int dispatch(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "run") return runCommand(argc, argv, fiimap::run);
   if (command == "accuracy") return runCommand(argc, argv, fiimap::evaluateAccuracy);
+  if (command == "health") return runCommand(argc, argv, fiimap::examineRecording);
+  if (command == "report") return fiimap::makeReport(argc - 2, argv + 2);
+  if (command == "sweep") return runCommand(argc, argv, fiimap::sweepInflation);
+  if (command == "compare") return runCommand(argc, argv, fiimap::compareMethods);
   if (command == "truth") return runCommand(argc, argv, fiimap::evaluateTruth);
   if (command == "--help" || command == "-h") return printHelp();
   if (command == "parameters") {
@@ -122,7 +180,8 @@ int dispatch(int argc, char** argv) {
     return 0;
   }
   throw std::invalid_argument(
-      "the command must be run, accuracy, truth or parameters; see fiimap_eval --help");
+      "the command must be run, health, accuracy, sweep, compare, truth, report or parameters; see "
+      "fiimap_eval --help");
 }
 
 }  // namespace

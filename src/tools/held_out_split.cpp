@@ -18,6 +18,12 @@ HeldOutSplit HeldOutSplit::byFold(int fold, int folds) {
   return split;
 }
 
+std::vector<HeldOutSplit> HeldOutSplit::everyFold(int folds) {
+  std::vector<HeldOutSplit> splits = {byFold(0, folds)};
+  for (int fold = 1; fold < folds; ++fold) splits.push_back(byFold(fold, folds));
+  return splits;
+}
+
 HeldOutSplit HeldOutSplit::fromFile(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw std::invalid_argument("cannot read " + file);

@@ -12,6 +12,9 @@ class HeldOutSplit {
   /// Those whose index modulo `folds` is `fold`.
   /// \throws std::invalid_argument unless folds >= 2 and 0 <= fold < folds.
   static HeldOutSplit byFold(int fold, int folds);
+  /// Every fold once, so that each scan is held out in one of them.
+  /// \throws std::invalid_argument unless folds >= 2.
+  static std::vector<HeldOutSplit> everyFold(int folds);
   /// Those that a file names: lines "INDEX build" or "INDEX test"; '#' begins a comment. Scans that
   /// it does not name build the map.
   /// \throws std::invalid_argument when the file cannot be read or holds anything else.

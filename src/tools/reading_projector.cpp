@@ -17,15 +17,14 @@ ReadingProjector::ReadingProjector(const MapperConfig& config, int pixel_step)
       depth_projector_(withStep(config, pixel_step)),
       point_projector_(config) {}
 
-void ReadingProjector::project(const SynchronizedScan& scan, RangeData* range) {
+ReadingCount ReadingProjector::project(const SynchronizedScan& scan, RangeData* range) {
   if (const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message)) {
     const DecodedDepthImage decoded = decodeDepthImage(*image);
-    depth_projector_.project(decoded.view, scan.intrinsics, scan.pose.T_W_S, range);
-    return;
+    return depth_projector_.project(decoded.view, scan.intrinsics, scan.pose.T_W_S, range);
   }
   const auto& cloud = std::get<sensor_msgs::PointCloud2ConstPtr>(scan.message);
   decodePointCloud(*cloud, pixel_step_, &points_);
-  point_projector_.project(points_, scan.pose.T_W_S, range);
+  return point_projector_.project(points_, scan.pose.T_W_S, range);
 }
 
 }  // namespace fiimap

@@ -12,8 +12,10 @@ class ReadingProjector {
   /// \param pixel_step use every n-th pixel of every n-th row, of organised clouds too; >= 1.
   ReadingProjector(const MapperConfig& config, int pixel_step);
 
-  /// Fills `range` anew. \throws InputError when the message cannot be used.
-  void project(const SynchronizedScan& scan, RangeData* range);
+  /// Fills `range` anew.
+  /// \return how many readings were of which kind. \throws InputError when the message cannot be
+  /// used.
+  ReadingCount project(const SynchronizedScan& scan, RangeData* range);
 
  private:
   int pixel_step_;

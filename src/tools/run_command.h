@@ -13,8 +13,9 @@ struct RunOptions {
   int verify = 0;    ///< compare with brute force at every n-th scan; 0: never
 };
 
-/// \return 0; 1 when a comparison failed or no scan could be integrated.
-/// \throws std::exception with a message for the user when input or settings are bad.
+/// \return 0; 1 when a comparison with brute force failed.
+/// \throws std::exception with a message for the user when input or settings are bad, or no scan
+/// could be integrated.
 int run(const RunOptions& options);
 
 /// `fiimap_eval parameters`: prints name, default, unit, allowed values and meaning of every

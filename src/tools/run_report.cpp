@@ -1,18 +1,15 @@
 #include "run_report.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <utility>
 
+#include "quantiles.h"
 #include "scan_evaluator.h"
 
 namespace fiimap {
 namespace {
 
-constexpr double kMedian = 0.5;
-constexpr double kP95 = 0.95;
 constexpr double kBytesPerMegabyte = 1e6;
 
 using Getter = std::function<double(const ScanReport&)>;
@@ -26,17 +23,11 @@ const std::vector<std::pair<std::string, double StageTimes::*>>& stages() {
   return list;
 }
 
-/// Nearest-rank quantiles.
 nlohmann::json quantiles(const std::vector<ScanReport>& scans, const Getter& get) {
   std::vector<double> values;
   for (const ScanReport& scan : scans) values.push_back(get(scan));
-  if (values.empty()) values.push_back(0.0);
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const auto rank = static_cast<std::size_t>(std::ceil(share * values.size()));
-    return values[std::max<std::size_t>(rank, 1) - 1];
-  };
-  return {{"median", at(kMedian)}, {"p95", at(kP95)}, {"max", values.back()}};
+  const Quantiles q = quantilesOf(std::move(values));
+  return {{"median", q.median}, {"p95", q.p95}, {"max", q.max}};
 }
 
 std::string tableRow(const std::string& name, const nlohmann::json& values) {

@@ -1,5 +1,8 @@
 #include "scan_evaluator.h"
 
+#include <iostream>
+#include <stdexcept>
+
 #include "bag_player.h"
 
 namespace fiimap {
@@ -23,6 +26,15 @@ void ScanEvaluator::play(const EvaluationInput& input) {
   progress_ = &progress;
   player.play(this, &counters_);
   progress_ = nullptr;
+  if (counters_.integrated > 0) return;
+  progress.end();
+  throw std::runtime_error("no scan could be integrated: " + (counters_.received == 0
+                                                                  ? "the recording holds none"
+                                                                  : counters_.last_drop));
+}
+
+void ScanEvaluator::printWarnings() const {
+  for (const std::string& warning : warnings_) std::cerr << "warning: " << warning << '\n';
 }
 
 void ScanEvaluator::onScan(const SynchronizedScan& scan) {

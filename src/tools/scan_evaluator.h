@@ -21,11 +21,14 @@ nlohmann::json toJson(const ScanCounters& counters);
 class ScanEvaluator : private ScanListener {
  public:
   /// Plays the whole recording.
+  /// \throws std::runtime_error that tells why, when no scan could be used.
   void play(const EvaluationInput& input);
 
   const ScanCounters& counters() const { return counters_; }
   /// Each kind of trouble once; the counters tell how often.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// On standard error, a line each.
+  void printWarnings() const;
 
  protected:
   /// Takes one scan. \param index in the recording; scans that are dropped count.

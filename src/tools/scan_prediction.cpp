@@ -5,11 +5,11 @@
 namespace fiimap {
 namespace {
 
-bool isOccupied(const Snapshot& map, const VoxelIndex& v) {
-  return map.occupancy(v) == Occupancy::kOccupied;
+bool isOccupied(const OccupancyQuery& map, const VoxelIndex& v) {
+  return map(v) == Occupancy::kOccupied;
 }
 
-bool isOccupiedAround(const Snapshot& map, const VoxelIndex& v) {
+bool isOccupiedAround(const OccupancyQuery& map, const VoxelIndex& v) {
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dz = -1; dz <= 1; ++dz) {
@@ -21,7 +21,7 @@ bool isOccupiedAround(const Snapshot& map, const VoxelIndex& v) {
 }
 
 /// \param from, to in voxel edges.
-bool isBlocked(const Snapshot& map, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+bool isBlocked(const OccupancyQuery& map, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const double length = (to - from).norm();
   bool blocked = false;
   walkVoxels(from, to, [&](const VoxelIndex& v, double t_out) {
@@ -34,19 +34,25 @@ bool isBlocked(const Snapshot& map, const Eigen::Vector3d& from, const Eigen::Ve
 
 }  // namespace
 
-ScanPrediction predict(const Snapshot& map, const RangeData& scan) {
+ScanPrediction predict(const OccupancyQuery& map, const VoxelLattice& lattice,
+                       const RangeData& scan) {
   ScanPrediction result;
-  const double to_voxels = 1.0 / map.lattice().resolution();
+  const double to_voxels = 1.0 / lattice.resolution();
   for (const Eigen::Vector3f& offset : scan.returns) {
     const Eigen::Vector3d end_W = scan.origin + offset.cast<double>();
-    const VoxelIndex end = map.lattice().indexOf(end_W);
+    const VoxelIndex end = lattice.indexOf(end_W);
     ++result.rays;
-    if (!map.window().contains(end)) ++result.outside;
+    if (map(end) == Occupancy::kOutside) ++result.outside;
     if (isOccupied(map, end)) ++result.hits;
     if (isOccupiedAround(map, end)) ++result.near;
     if (isBlocked(map, scan.origin * to_voxels, end_W * to_voxels)) ++result.blocked;
   }
   return result;
+}
+
+ScanPrediction predict(const Snapshot& map, const RangeData& scan) {
+  const auto query = [&map](const VoxelIndex& v) { return map.occupancy(v); };
+  return predict(query, map.lattice(), scan);
 }
 
 }  // namespace fiimap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "fiimap/range_data.h"
 #include "fiimap/snapshot.h"
@@ -20,8 +21,13 @@ struct ScanPrediction {
 /// end.
 constexpr double kBlockedBeforeEnd = 2.0;
 
+/// What a map says of a voxel; kOutside where it has none.
+using OccupancyQuery = std::function<Occupancy(const VoxelIndex&)>;
+
 /// Compares the returns of a scan with the occupied voxels of a map. Every voxel of the exact line
 /// from the origin to the end point is looked at.
+ScanPrediction predict(const OccupancyQuery& map, const VoxelLattice& lattice,
+                       const RangeData& scan);
 ScanPrediction predict(const Snapshot& map, const RangeData& scan);
 
 }  // namespace fiimap

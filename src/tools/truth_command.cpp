@@ -1,5 +1,6 @@
 #include "truth_command.h"
 
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include "fiimap/ros/scan_decoder.h"
 #include "reading_projector.h"
 #include "scan_evaluator.h"
+#include "truth/passing_obstacles.h"
 #include "truth_report.h"
 
 namespace fiimap {
@@ -29,31 +31,65 @@ class TruthComparison : public ScanEvaluator {
     for (const double resolution : resolutions) {
       MapperConfig changed = config;
       changed.resolution = resolution;
-      mappers_.push_back(std::make_unique<Mapper>(changed));
-      rows_.push_back({resolution, {}});
+      candidates_.push_back({std::make_unique<Mapper>(changed),
+                             {resolution, {}, {}, {}, {}},
+                             PassedVoxels(resolution, config.max_ray_length),
+                             PassingObstacles(scene_)});
     }
   }
 
-  const std::vector<TruthRow>& rows() const { return rows_; }
+  /// The last map at the first resolution: x, y, z, distance from the surface (m).
+  void writeVoxels(const std::string& file) const {
+    const std::shared_ptr<const Snapshot> map = candidates_.front().mapper->snapshot();
+    std::ofstream stream(file);
+    stream << "x,y,z,distance\n";
+    for (const VoxelIndex& v : map->voxels(Plane::kOccupied, map->window())) {
+      const Eigen::Vector3d center_W = map->lattice().centerOf(v);
+      stream << center_W.x() << ',' << center_W.y() << ',' << center_W.z() << ','
+             << scene_.signedDistance(center_W, time_) << '\n';
+    }
+    if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+  }
+
+  std::vector<TruthRow> rows() const {
+    std::vector<TruthRow> rows;
+    for (const Candidate& candidate : candidates_) {
+      rows.push_back(candidate.row);
+      rows.back().obstacles = candidate.obstacles.json();
+    }
+    return rows;
+  }
 
  private:
+  struct Candidate {
+    std::unique_ptr<Mapper> mapper;
+    TruthRow row;
+    PassedVoxels passed;
+    PassingObstacles obstacles;
+  };
+
   void addScan(const SynchronizedScan& scan, std::size_t index) override {
-    for (const auto& mapper : mappers_) decoder_.integrate(scan, mapper.get());
-    const double time = scan.pose.stamp_ns * kNanosecond - scene_.startTime();
+    for (Candidate& candidate : candidates_) decoder_.integrate(scan, candidate.mapper.get());
+    time_ = scan.pose.stamp_ns * kNanosecond - scene_.startTime();
     projector_.project(scan, &readings_);
-    surface_.add(readings_, time);
+    surface_.add(readings_, time_);
     const std::size_t due = (index + 1) * snapshots_ / total();
-    if (due > taken_) compare(time);
+    for (Candidate& candidate : candidates_) {
+      const std::shared_ptr<const Snapshot> map = candidate.mapper->snapshot();
+      candidate.passed.add(readings_, scene_, time_);
+      candidate.obstacles.add(readings_, *map, time_);
+      if (due > taken_) compare(*map, time_, &candidate);
+    }
     taken_ = due;
   }
 
-  void compare(double time) {
-    for (std::size_t i = 0; i < mappers_.size(); ++i) {
-      const std::shared_ptr<const Snapshot> map = mappers_[i]->snapshot();
-      const VoxelBox box = VoxelLattice::boxAround(map->lattice().indexOf(readings_.origin),
-                                                   map->lattice().sizeOf(kBoxSize));
-      compareWithScene(*map, scene_, surface_, box, time, &rows_[i].count);
-    }
+  void compare(const Snapshot& map, double time, Candidate* candidate) {
+    const VoxelBox box = VoxelLattice::boxAround(map.lattice().indexOf(readings_.origin),
+                                                 map.lattice().sizeOf(kBoxSize));
+    TruthRow& row = candidate->row;
+    compareWithScene(map, scene_, surface_, box, time, &row.count);
+    candidate->passed.compare(map, scene_, box, time, &row.free_space);
+    row.inflation.compare(map, scene_, surface_, box, time);
   }
 
   void forget() override {
@@ -65,8 +101,8 @@ class TruthComparison : public ScanEvaluator {
   ReadingProjector projector_;
   ScanDecoder decoder_;
   RangeData readings_;
-  std::vector<std::unique_ptr<Mapper>> mappers_;
-  std::vector<TruthRow> rows_;
+  std::vector<Candidate> candidates_;
+  double time_ = 0.0;  // of the scene, s
   std::size_t snapshots_;
   std::size_t taken_ = 0;
 };
@@ -83,20 +119,16 @@ int evaluateTruth(const TruthOptions& options) {
                              options.snapshots);
   comparison.play(input);
 
-  for (const std::string& warning : comparison.warnings()) {
-    std::cerr << "warning: " << warning << '\n';
-  }
-  std::cout << toText(comparison.rows(), options.csv);
+  comparison.printWarnings();
+  if (!options.voxels.empty()) comparison.writeVoxels(options.voxels);
+  const std::vector<TruthRow> rows = comparison.rows();
+  std::cout << toText(rows, options.csv);
   nlohmann::json json = toJson(comparison.counters());
   json["warnings"] = comparison.warnings();
   json["scene"] = options.scene;
   json["results"] = nlohmann::json::array();
-  for (const TruthRow& row : comparison.rows()) json["results"].push_back(toJson(row));
+  for (const TruthRow& row : rows) json["results"].push_back(toJson(row));
   input.writeJson(json);
-  if (comparison.counters().integrated == 0) {
-    std::cerr << "error: no scan could be integrated\n";
-    return 1;
-  }
   return 0;
 }
 

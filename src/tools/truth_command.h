@@ -14,11 +14,14 @@ struct TruthOptions {
   std::string scene;                ///< file of the scene, as data/README.md describes it
   std::vector<double> resolutions;  ///< m; empty: that of the configuration
   int snapshots = 10;               ///< how often to compare, evenly over the recording
-  bool csv = false;                 ///< print the table as CSV
+  /// Where to write the occupied voxels of the last map at the first resolution with their distance
+  /// from the exact surface, as CSV; empty: nowhere.
+  std::string voxels;
+  bool csv = false;  ///< print the table as CSV
 };
 
-/// \return 0; 1 when no scan could be integrated.
-/// \throws std::exception with a message for the user when input or settings are bad.
+/// \return 0. \throws std::exception with a message for the user when input or settings are bad, or
+/// no scan could be integrated.
 int evaluateTruth(const TruthOptions& options);
 
 }  // namespace fiimap

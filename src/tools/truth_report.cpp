@@ -57,6 +57,7 @@ void compareWithScene(const Snapshot& map, const ExactScene& scene, const SeenSu
 }
 
 nlohmann::json toJson(const TruthRow& row) {
+  const FreeSpaceCount& space = row.free_space;
   return {
       {"resolution", row.resolution},
       {"snapshots", row.count.snapshots},
@@ -67,18 +68,33 @@ nlohmann::json toJson(const TruthRow& row) {
       {"occupied", row.count.occupied},
       {"cells_5", row.count.often},
       {"cells_any", row.count.seen},
+      {"free_recall", space.free == 0 ? 0.0 : static_cast<double>(space.found) / space.free},
+      {"free_but_occupied",
+       space.free == 0 ? 0.0 : static_cast<double>(space.occupied) / space.free},
+      {"free_voxels", space.free},
+      {"inflation", row.inflation.json()},
+      {"obstacles", row.obstacles},
   };
 }
 
 std::string toText(const std::vector<TruthRow>& rows, bool csv) {
-  std::string text = csv ? "resolution,snapshots,half,recall_5,recall_any,dyn\n"
-                         : "resolution  snapshots    half  recall>=5     any    dyn\n";
+  std::string text =
+      csv ? "resolution,snapshots,half,recall_5,recall_any,dyn,free_recall,missing_share,"
+            "least_clearance_m,excess_share\n"
+          : "resolution  snapshots    half  recall>=5     any    dyn    free  missing  clearance"
+            "  excess\n";
   const char* format =
-      csv ? "%g,%zu,%.6f,%.6f,%.6f,%zu\n" : "%8g m %10zu  %.4f     %.4f  %.4f %6zu\n";
+      csv ? "%g,%zu,%.6f,%.6f,%.6f,%zu,%.6f,%.6f,%.6f,%.6f\n"
+          : "%8g m %10zu  %.4f     %.4f  %.4f %6zu  %.4f   %.4f   %6.3f m   %.4f\n";
   for (const TruthRow& row : rows) {
-    char line[128];
+    const nlohmann::json json = toJson(row);
+    const nlohmann::json& inflation = json["inflation"];
+    char line[192];
     std::snprintf(line, sizeof(line), format, row.resolution, row.count.snapshots, row.count.half(),
-                  row.count.recallOften(), row.count.recallAny(), row.count.leftover);
+                  row.count.recallOften(), row.count.recallAny(), row.count.leftover,
+                  json["free_recall"].get<double>(), inflation["missing_share"].get<double>(),
+                  inflation["least_clearance_m"].get<double>(),
+                  inflation["excess_share"].get<double>());
     text += line;
   }
   return text;

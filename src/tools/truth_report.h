@@ -8,11 +8,13 @@
 #include "exact_scene.h"
 #include "fiimap/snapshot.h"
 #include "seen_surface.h"
+#include "truth/inflation_truth.h"
+#include "truth/passed_voxels.h"
 
 namespace fiimap {
 
 /// How a map compares with the exact scene, summed over the moments at which it was compared.
-/// docs/accuracy.md defines the shares.
+/// docs/evaluation.md defines the shares.
 struct TruthCount {
   std::size_t snapshots = 0;
   std::size_t occupied = 0;  ///< occupied voxels, but near what comes, goes or moves
@@ -40,9 +42,13 @@ struct TruthCount {
 void compareWithScene(const Snapshot& map, const ExactScene& scene, const SeenSurface& surface,
                       const VoxelBox& box, double time, TruthCount* count);
 
+/// All that is compared at one resolution.
 struct TruthRow {
   double resolution = 0.0;  ///< m
   TruthCount count;
+  FreeSpaceCount free_space;
+  InflationTruth inflation;
+  nlohmann::json obstacles;  ///< those that come and go: PassingObstacles::json()
 };
 
 /// Keys as documented in README.md.

@@ -17,6 +17,12 @@
 namespace fiimap {
 namespace {
 
+nlohmann::json readJson(const std::string& file) {
+  nlohmann::json json;
+  std::ifstream(file) >> json;
+  return json;
+}
+
 constexpr double kResolution = 0.5;  // m; with points at quarters nothing is rounded
 
 class ScanPredictionTest : public testing::Test {
@@ -72,7 +78,7 @@ TEST_F(ScanPredictionTest, IsBlockedByWhatItLeavesMoreThanTwoVoxelsBeforeItsEnd)
   EXPECT_EQ(predictWith({{8, 0, 0}}).blocked, 0u);  // left at x = 4.5: 1.5 voxels
   EXPECT_EQ(predictWith({{0, 0, 0}}).blocked, 1u);
   EXPECT_EQ(predictWith({{7, 1, 0}}).blocked, 0u);  // beside the ray
-  setReturns({{4.75f, 0.0f, 0.0f}});  // ends at x = 5: exactly two voxels
+  setReturns({{4.75f, 0.0f, 0.0f}});                // ends at x = 5: exactly two voxels
   EXPECT_EQ(predictWith({{7, 0, 0}}).blocked, 0u);
 }
 
@@ -127,6 +133,17 @@ TEST(HeldOutSplitTest, HoldsOutEveryTenth) {
   EXPECT_THROW(HeldOutSplit::byFold(0, 1), std::invalid_argument);
 }
 
+TEST(HeldOutSplitTest, HoldsOutEachScanInOneOfAllFolds) {
+  const std::vector<HeldOutSplit> splits = HeldOutSplit::everyFold(4);
+  ASSERT_EQ(splits.size(), 4u);
+  for (std::size_t index = 0; index < 20; ++index) {
+    int times = 0;
+    for (const HeldOutSplit& split : splits) times += split.holdsOut(index) ? 1 : 0;
+    EXPECT_EQ(times, 1) << index;
+  }
+  EXPECT_THROW(HeldOutSplit::everyFold(1), std::invalid_argument);
+}
+
 TEST(HeldOutSplitTest, ReadsAFile) {
   const TemporaryFile file("# index use\n0 build\n1 test  # held out\n\n3 test\n");
   const HeldOutSplit split = HeldOutSplit::fromFile(file.path());
@@ -148,7 +165,8 @@ TEST(HeldOutSplitTest, RefusesOtherFiles) {
 TEST(AccuracyReportTest, GivesMeanAndDeviationOverScans) {
   // Shares of hits 1/2 and 1; the scan without rays does not count.
   const std::vector<ScanPrediction> scans = {{4, 2, 3, 1, 1}, {0, 0, 0, 0, 0}, {2, 2, 2, 1, 0}};
-  const nlohmann::json json = toJson(summarise("final_map", 0.1, scans));
+  const nlohmann::json json = toJson(summarise("fiimap", "final_map", 0.1, scans));
+  EXPECT_EQ(json.at("method"), "fiimap");
   EXPECT_EQ(json.at("variant"), "final_map");
   EXPECT_EQ(json.at("resolution"), 0.1);
   EXPECT_EQ(json.at("held_out_scans"), 2);
@@ -169,8 +187,7 @@ TEST(AccuracyCommandTest, ForetellsTheSampleFlight) {
   options.resolutions = {0.2, 0.4};
   ASSERT_EQ(evaluateAccuracy(options), 0);
 
-  nlohmann::json json;
-  std::ifstream(json_file.path()) >> json;
+  const nlohmann::json json = readJson(json_file.path());
   EXPECT_EQ(json.at("scans"), 110);
   EXPECT_EQ(json.at("held_out_step"), 4);
   EXPECT_EQ(json.at("split"), "index % 10 == 9");
@@ -188,6 +205,56 @@ TEST(AccuracyCommandTest, ForetellsTheSampleFlight) {
   EXPECT_EQ(json.at("results")[1].at("resolution"), 0.2);
   EXPECT_EQ(json.at("results")[2].at("resolution"), 0.4);
   EXPECT_TRUE(json.at("parameters").contains("ray_end_cut"));
+}
+
+TEST(AccuracyCommandTest, HoldsOutEveryFoldInTurn) {
+  const TemporaryFile json_file("");
+  AccuracyOptions options;
+  options.input.bag = FIIMAP_SOURCE_DIR "/data/synth_flight_excerpt.bag";
+  options.input.json = json_file.path();
+  options.resolutions = {0.4};
+  options.held_out_step = 8;
+  options.folds = 2;
+  ASSERT_EQ(evaluateAccuracy(options), 0);
+  const nlohmann::json all = readJson(json_file.path());
+  EXPECT_EQ(all.at("folds"), 2);
+  EXPECT_EQ(all.at("results")[0].at("held_out_scans"), 110);
+
+  // The mean over all scans is that of the folds, by their number of scans.
+  double sum = 0.0;
+  for (options.fold = 0; options.fold < 2; ++options.fold) {
+    ASSERT_EQ(evaluateAccuracy(options), 0);
+    const nlohmann::json row = readJson(json_file.path()).at("results")[0];
+    sum += row.at("hit_rate_mean").get<double>() * row.at("held_out_scans").get<int>();
+  }
+  EXPECT_NEAR(all.at("results")[0].at("hit_rate_mean"), sum / 110, 1e-12);
+}
+
+// Where the rules are the same, two implementations that share nothing make nearly the same map. What
+// remains: OctoMap moves points to the middle of their voxel, and so some of them beyond its range.
+TEST(AccuracyCommandTest, AgreesWithOctomapWhereTheRulesDo) {
+  const TemporaryFile json_file("");
+  AccuracyOptions options;
+  options.input.bag = FIIMAP_SOURCE_DIR "/data/cow_and_lady_excerpt.bag";
+  options.input.config = FIIMAP_SOURCE_DIR "/config/cow_and_lady.yaml";
+  options.input.json = json_file.path();
+  options.input.settings = {"ray_end_cut=0", "beyond_max_depth=ignore"};
+  options.octomap = true;
+  options.folds = 4;
+  options.fold = 3;
+  ASSERT_EQ(evaluateAccuracy(options), 0);
+  const nlohmann::json json = readJson(json_file.path());
+  ASSERT_EQ(json.at("results").size(), 4u);
+  EXPECT_EQ(json.at("results")[0].at("method"), "fiimap");
+  EXPECT_EQ(json.at("results")[2].at("method"), "octomap");
+  for (const nlohmann::json& row : json.at("results")) {
+    EXPECT_GT(row.at("hit_rate_within_one_voxel_mean"), 0.9) << row;
+  }
+  const nlohmann::json& agreement = json.at("octomap_agreement")[0];
+  EXPECT_GT(agreement.at("free_overlap"), 0.97);
+  EXPECT_GT(agreement.at("occupied_overlap"), 0.96);
+  EXPECT_EQ(agreement.at("ours_found"), 1.0);
+  EXPECT_EQ(agreement.at("theirs_found"), 1.0);
 }
 
 TEST(AccuracyCommandTest, RefusesWhatMakesNoSense) {

@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "baselines/batch_inflation.h"
+#include "batch_inflation.h"
 #include "fiimap/inflater.h"
 #include "mapping_method.h"
 
@@ -21,7 +22,20 @@ struct InflationStep {
   std::size_t score() const { return lower.size() + raise.size(); }
 };
 
-/// Builds the map of the frames and notes how its occupied plane changes.
+/// Builds a map and notes how its occupied plane changes.
+class InflationRecorder {
+ public:
+  explicit InflationRecorder(const MapperConfig& config) : mapper_(config) {}
+
+  /// \throws std::invalid_argument when the mapper refuses the frame.
+  InflationStep add(const Frame& frame);
+
+ private:
+  Mapper mapper_;
+  std::vector<VoxelIndex> before_;
+};
+
+/// The steps of all frames.
 std::vector<InflationStep> recordInflationSteps(const std::vector<Frame>& frames,
                                                 const MapperConfig& config);
 
@@ -32,6 +46,7 @@ class InflationReplay {
   virtual ~InflationReplay() = default;
   virtual void prepare(const InflationStep& step) = 0;
   virtual void update() = 0;
+  virtual bool isInflated(const VoxelIndex& v) const = 0;
 };
 
 /// One of our inflaters, as config.inflation_method says.
@@ -41,6 +56,7 @@ class InflaterReplay : public InflationReplay {
 
   void prepare(const InflationStep& step) override;
   void update() override { inflater_->update(changes_, &grid_); }
+  bool isInflated(const VoxelIndex& v) const override { return grid_.test(Plane::kInflated, v); }
   const SlidingGrid& grid() const { return grid_; }
 
  private:
@@ -57,7 +73,7 @@ class BatchReplay : public InflationReplay {
 
   void prepare(const InflationStep& step) override;
   void update() override;
-  bool isInflated(const VoxelIndex& v) const { return inflated_[layout_.indexOf(v)] != 0; }
+  bool isInflated(const VoxelIndex& v) const override { return inflated_[layout_.indexOf(v)] != 0; }
 
  private:
   void setOccupied(const std::vector<VoxelIndex>& voxels, std::uint8_t value);
@@ -68,5 +84,15 @@ class BatchReplay : public InflationReplay {
   std::vector<std::uint8_t> inflated_;
   VoxelBox update_box_;
 };
+
+/// Ways to inflate: ours (those of the parameter inflation_method), then the baseline.
+constexpr const char* kInflations[] = {"incremental", "bfs6",  "bfs18",
+                                       "bfs26",       "batch", "byte_batch"};
+constexpr char kByteBatch[] = "byte_batch";
+
+/// \param name one of kInflations. \param box that holds the update boxes of all steps.
+/// \throws std::invalid_argument for another name.
+std::unique_ptr<InflationReplay> makeReplay(const std::string& name, MapperConfig config,
+                                            const VoxelBox& box);
 
 }  // namespace fiimap::bench

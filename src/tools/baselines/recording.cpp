@@ -19,9 +19,8 @@ class FrameCollector : public ScanListener {
       : max_frames_(max_frames), frames_(frames) {}
 
   void onScan(const SynchronizedScan& scan) override {
-    const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message);
-    if (image == nullptr) return;
-    frames_->push_back({decodeDepthImage(*image), scan.intrinsics, scan.pose});
+    if (!std::holds_alternative<sensor_msgs::ImageConstPtr>(scan.message)) return;
+    frames_->push_back(frameOf(scan, 1));
     if (frames_->size() == max_frames_) throw EnoughFrames();
   }
   void onDrop(const Drop& /*drop*/) override {}
@@ -34,6 +33,24 @@ class FrameCollector : public ScanListener {
 };
 
 }  // namespace
+
+Frame frameOf(const SynchronizedScan& scan, int pixel_step) {
+  Frame frame;
+  frame.pose = scan.pose;
+  if (const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message)) {
+    frame.image = decodeDepthImage(*image);
+    frame.intrinsics = scan.intrinsics;
+  } else {
+    const auto& cloud = std::get<sensor_msgs::PointCloud2ConstPtr>(scan.message);
+    decodePointCloud(*cloud, pixel_step, &frame.points.emplace());
+  }
+  return frame;
+}
+
+ScanReport integrate(const Frame& frame, Mapper* mapper) {
+  if (frame.points) return mapper->integrate(*frame.points, frame.pose);
+  return mapper->integrate(frame.image.view, frame.intrinsics, frame.pose);
+}
 
 Recording loadRecording(const std::string& name, const std::string& bag_path,
                         std::size_t max_frames) {

@@ -14,9 +14,9 @@ struct PixelPoint {
   bool is_return;  ///< false: the ray is free up to and including its end
 };
 
-/// Back-projects every pixel_step-th pixel on its own with a matrix product in double precision,
-/// the textbook way. Readings are judged as DepthProjector does.
-/// \throws std::invalid_argument when the image is not of 16 bits.
+/// Back-projects every pixel of the configured step on its own with a matrix product in double
+/// precision, the textbook way; of a cloud, every point. Readings are judged as DepthProjector and
+/// PointProjector do.
 void projectPixels(const Frame& frame, const MapperConfig& config, std::vector<PixelPoint>* points);
 
 /// Cuts a ray off where it leaves the box (voxel units); it is no return any more then.

@@ -1,6 +1,6 @@
 #include "ego_style_map.h"
 
-#include "voxel_walk.h"
+#include "ray_walk.h"
 
 namespace fiimap::bench {
 

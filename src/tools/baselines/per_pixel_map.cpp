@@ -1,6 +1,6 @@
 #include "per_pixel_map.h"
 
-#include "voxel_walk.h"
+#include "ray_walk.h"
 
 namespace fiimap::bench {
 

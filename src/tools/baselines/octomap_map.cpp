@@ -3,8 +3,9 @@
 namespace fiimap::bench {
 namespace {
 
-/// Rays without return are given to OctoMap as points a little beyond its maximum range.
-constexpr double kBeyond = 1.01;
+/// Rays without return are given to OctoMap as points beyond its maximum range, by more than a
+/// voxel's diagonal: it moves points to the middle of their voxel before it looks how far they are.
+constexpr double kBeyond = 2.0;  // voxel edges
 
 octomap::point3d pointOf(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
@@ -23,10 +24,11 @@ OctomapMap::OctomapMap(const MapperConfig& config) : config_(config), tree_(conf
 void OctomapMap::integrate(const Frame& frame) {
   projectPixels(frame, config_, &points_);
   const Eigen::Vector3d origin = frame.pose.T_W_S.translation();
+  const double beyond = config_.max_ray_length + kBeyond * config_.resolution;
   cloud_.clear();
   for (const PixelPoint& point : points_) {
     const Eigen::Vector3d ray = point.end_W - origin;
-    const double scale = point.is_return ? 1.0 : kBeyond * config_.max_ray_length / ray.norm();
+    const double scale = point.is_return ? 1.0 : beyond / ray.norm();
     cloud_.push_back(pointOf(origin + scale * ray));
   }
   const bool lazy = false;
@@ -39,13 +41,19 @@ std::vector<VoxelIndex> OctomapMap::occupied(const VoxelBox& box) const {
   for (int x = box.min.x(); x < box.max.x(); ++x) {
     for (int y = box.min.y(); y < box.max.y(); ++y) {
       for (int z = box.min.z(); z < box.max.z(); ++z) {
-        const Eigen::Vector3d center_W = VoxelLattice(config_.resolution).centerOf({x, y, z});
-        const octomap::OcTreeNode* node = tree_.search(pointOf(center_W));
-        if (node != nullptr && tree_.isNodeOccupied(node)) found.emplace_back(x, y, z);
+        if (occupancy({x, y, z}) == Occupancy::kOccupied) found.emplace_back(x, y, z);
       }
     }
   }
   return found;
+}
+
+Occupancy OctomapMap::occupancy(const VoxelIndex& v) const {
+  const auto key = [](int index) { return static_cast<octomap::key_type>(index + kCenterKey); };
+  const octomap::OcTreeNode* node =
+      tree_.search(octomap::OcTreeKey(key(v.x()), key(v.y()), key(v.z())));
+  if (node == nullptr) return Occupancy::kUnknown;
+  return tree_.isNodeOccupied(node) ? Occupancy::kOccupied : Occupancy::kFree;
 }
 
 }  // namespace fiimap::bench

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <utility>
 
 namespace fiimap::bench {
 namespace {
@@ -29,24 +31,25 @@ std::vector<VoxelIndex> difference(const std::vector<VoxelIndex>& a,
 
 }  // namespace
 
+InflationStep InflationRecorder::add(const Frame& frame) {
+  integrate(frame, &mapper_);
+  InflationStep step;
+  step.window = mapper_.grid().window();
+  step.update_box = updateBox(mapper_.config(), frame.pose).intersection(step.window);
+  std::vector<VoxelIndex> now = sortedObstacles(mapper_.grid());
+  step.lower = difference(now, before_);
+  for (const VoxelIndex& v : difference(before_, now)) {
+    (step.window.contains(v) ? step.raise : step.forgotten).push_back(v);
+  }
+  before_ = std::move(now);
+  return step;
+}
+
 std::vector<InflationStep> recordInflationSteps(const std::vector<Frame>& frames,
                                                 const MapperConfig& config) {
+  InflationRecorder recorder(config);
   std::vector<InflationStep> steps;
-  Mapper mapper(config);
-  std::vector<VoxelIndex> before;
-  for (const Frame& frame : frames) {
-    mapper.integrate(frame.image.view, frame.intrinsics, frame.pose);
-    InflationStep step;
-    step.window = mapper.grid().window();
-    step.update_box = updateBox(config, frame.pose).intersection(step.window);
-    std::vector<VoxelIndex> now = sortedObstacles(mapper.grid());
-    step.lower = difference(now, before);
-    for (const VoxelIndex& v : difference(before, now)) {
-      (step.window.contains(v) ? step.raise : step.forgotten).push_back(v);
-    }
-    steps.push_back(std::move(step));
-    before = std::move(now);
-  }
+  for (const Frame& frame : frames) steps.push_back(recorder.add(frame));
   return steps;
 }
 
@@ -83,6 +86,22 @@ void BatchReplay::update() {
 
 void BatchReplay::setOccupied(const std::vector<VoxelIndex>& voxels, std::uint8_t value) {
   for (const VoxelIndex& v : voxels) occupied_[layout_.indexOf(v)] = value;
+}
+
+std::unique_ptr<InflationReplay> makeReplay(const std::string& name, MapperConfig config,
+                                            const VoxelBox& box) {
+  if (name == kByteBatch) return std::make_unique<BatchReplay>(config, box);
+  if (name == "incremental") {
+    config.inflation_method = InflationMethod::kIncremental;
+  } else if (name == "batch") {
+    config.inflation_method = InflationMethod::kBatch;
+  } else if (name == "bfs6" || name == "bfs18" || name == "bfs26") {
+    config.inflation_method = InflationMethod::kBfs;
+    config.bfs_connectivity = name == "bfs6" ? 6 : name == "bfs18" ? 18 : 26;
+  } else {
+    throw std::invalid_argument("no inflation method is called " + name);
+  }
+  return std::make_unique<InflaterReplay>(config);
 }
 
 }  // namespace fiimap::bench

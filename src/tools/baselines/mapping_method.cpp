@@ -2,33 +2,11 @@
 
 #include <stdexcept>
 
-#include "baselines/ego_style_map.h"
-#include "baselines/octomap_map.h"
-#include "baselines/per_pixel_map.h"
+#include "ego_style_map.h"
+#include "octomap_map.h"
+#include "per_pixel_map.h"
 
 namespace fiimap::bench {
-namespace {
-
-/// This package's own map, snapshot included.
-class FiimapMethod : public MappingMethod {
- public:
-  explicit FiimapMethod(const MapperConfig& config) : mapper_(config) {}
-
-  void integrate(const Frame& frame) override {
-    mapper_.integrate(frame.image.view, frame.intrinsics, frame.pose);
-    snapshot_ = mapper_.snapshot();
-  }
-  std::vector<VoxelIndex> occupied(const VoxelBox& box) const override {
-    return snapshot_->voxels(Plane::kOccupied, box);
-  }
-
- private:
-  Mapper mapper_;
-  std::shared_ptr<const Snapshot> snapshot_;
-};
-
-}  // namespace
-
 MapperConfig configAt(double resolution, int reach, ElementShape shape) {
   MapperConfig config;
   config.resolution = resolution;
@@ -43,20 +21,26 @@ VoxelBox updateBox(const MapperConfig& config, const ScanPose& pose) {
                                  lattice.sizeOf(config.localUpdateRange()));
 }
 
+VoxelBox boxAround(const VoxelBox& a, const VoxelBox& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+}
+
 VoxelBox boxAroundFrames(const MapperConfig& config, const std::vector<Frame>& frames) {
-  VoxelBox all = updateBox(config, frames.front().pose);
-  for (const Frame& frame : frames) {
-    const VoxelBox box = updateBox(config, frame.pose);
-    all = {all.min.cwiseMin(box.min), all.max.cwiseMax(box.max)};
-  }
+  VoxelBox all;
+  for (const Frame& frame : frames) all = boxAround(all, updateBox(config, frame.pose));
   return all;
 }
 
+bool isArrayMap(const std::string& name) {
+  return name == kEgoStyle || name == kEgoStyleAsShipped || name == kPerPixel;
+}
+
 std::unique_ptr<MappingMethod> makeMethod(const std::string& name, const MapperConfig& config,
-                                          const std::vector<Frame>& frames) {
+                                          const VoxelBox& box) {
   if (name == kFiimap) return std::make_unique<FiimapMethod>(config);
   if (name == kOctomap) return std::make_unique<OctomapMap>(config);
-  const VoxelBox box = boxAroundFrames(config, frames);
   if (name == kPerPixel) return std::make_unique<PerPixelMap>(config, box);
   MapperConfig ego_config = config;
   if (name == kEgoStyleAsShipped) {
@@ -65,6 +49,11 @@ std::unique_ptr<MappingMethod> makeMethod(const std::string& name, const MapperC
     throw std::invalid_argument("no mapping method is called " + name);
   }
   return std::make_unique<EgoStyleMap>(ego_config, box);
+}
+
+std::unique_ptr<MappingMethod> makeMethod(const std::string& name, const MapperConfig& config,
+                                          const std::vector<Frame>& frames) {
+  return makeMethod(name, config, boxAroundFrames(config, frames));
 }
 
 }  // namespace fiimap::bench
