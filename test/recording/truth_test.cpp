@@ -131,6 +131,18 @@ TEST_F(TruthTest, FindsSeenCellsInTheirVoxelOrAFaceNeighbour) {
   EXPECT_EQ(count.often_found, 1u);
 }
 
+TEST_F(TruthTest, SeesASurfaceOnACellBoundaryInTheCellBehindIt) {
+  for (int i = 0; i < 1000; ++i) {  // the wall's face is at x = 4, which is where a cell begins
+    RangeData scan;
+    scan.origin = {0.1 + 0.0037 * i, 0.0, 1.0};
+    scan.returns.push_back({1.0f, -0.5f + 0.00091f * i, 0.3f - 0.00057f * i});
+    surface_.add(scan, 0.0);
+  }
+  surface_.forEach([](const Eigen::Vector3d& center_W, int) {
+    EXPECT_NEAR(center_W.x(), 4.0 + SeenSurface::kCell / 2.0, kTolerance);
+  });
+}
+
 TEST_F(TruthTest, LeavesOutWhatIsNearAPassingShape) {
   see(3.01, 1.5);  // meets the ball
   const TruthCount count = compare({{20, 30, 10}}, 1.5);
