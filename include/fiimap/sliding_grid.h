@@ -137,7 +137,8 @@ class SlidingGrid {
   const std::vector<int>& liveSlots() const { return live_; }
   /// Lowest column of the tile in a live slot (x, y; z is 0).
   const VoxelIndex& tileOrigin(int slot) const { return slots_[slot].origin; }
-  /// Calls visit(VoxelIndex) for every set voxel of a plane in a box, tile by tile.
+  /// Calls visit(VoxelIndex), which must not change the grid, for every set voxel of a plane in a
+  /// box, tile by tile.
   template <typename Visitor>
   void forEach(Plane plane, const VoxelBox& box, Visitor&& visit) const;
 
@@ -155,7 +156,8 @@ class SlidingGrid {
  private:
   struct Slot {
     std::shared_ptr<Tile> tile;
-    /// Of snapshots, in which the grid made this copy of the tile; older ones are frozen.
+    /// Number of shareTiles() calls when this copy of the tile was made: one of an older number may
+    /// be in a snapshot and must not change.
     std::uint64_t generation = 0;
     std::unique_ptr<std::int8_t[]> log_odds;
     VoxelIndex origin = VoxelIndex::Zero();

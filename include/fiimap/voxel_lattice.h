@@ -31,7 +31,8 @@ struct VoxelBox {
   bool operator!=(const VoxelBox& other) const { return !(*this == other); }
 };
 
-/// Largest integer that is not above the value. Without SSE4.1, std::floor is a function call.
+/// Largest integer that is not above the value, which must be a number in the range of int. Without
+/// SSE4.1, std::floor is a function call.
 template <typename Scalar>
 int floorToInt(Scalar value) {
   const int truncated = static_cast<int>(value);

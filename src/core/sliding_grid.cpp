@@ -128,6 +128,7 @@ void SlidingGrid::clear() {
 void SlidingGrid::clearPlane(Plane plane) {
   for (const int index : live_) {
     Slot& slot = slots_[index];
+    if (slot.counts[static_cast<int>(plane)] == 0) continue;
     std::uint64_t* const words = writableTile(&slot);
     std::fill_n(words + offsetInTile(plane, 0, 0, layout_), planeWords(layout_), 0);
     slot.counts[static_cast<int>(plane)] = 0;

@@ -47,6 +47,7 @@ void Flight::setGoals(const std::vector<Eigen::Vector3d>& goals) {
 
 void Flight::restart() {
   flown_ = {};
+  space_.reset();
   ends_at_goal_ = false;
   last_attempt_ = -std::numeric_limits<double>::infinity();
 }

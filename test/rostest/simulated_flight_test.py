@@ -29,48 +29,62 @@ BLIND = {'max_depth': 0.31, 'max_ray_length': 0.31}
 class SimulatedFlightTest(ManagerTest):
     def setUp(self):
         super().setUp()
-        self.truth = None
-        self.statuses = []
-        for topic, kind, callback in (('/simulator/truth', SimulatorTruth, self._on_truth),
-                                      ('/planner/status', PlannerStatus, self.statuses.append)):
-            subscriber = rospy.Subscriber(topic, kind, callback)
-            self.addCleanup(subscriber.unregister)
+        self.loaders = []
+        self.subscribers = []
+        self.addCleanup(self.stop_listening)
 
-    def _on_truth(self, truth):
-        self.truth = truth
+    def listen_to_flight(self):
+        """What comes late from the flight before does not get into what is heard of this one."""
+        self.heard = heard = {}
+        for topic, kind in (('/simulator/truth', SimulatorTruth),
+                            ('/planner/status', PlannerStatus)):
+            self.subscribers.append(rospy.Subscriber(
+                topic, kind, lambda message, topic=topic: heard.update({topic: message})))
+
+    def stop_listening(self):
+        while self.subscribers:
+            self.subscribers.pop().unregister()
+
+    @property
+    def truth(self):
+        return self.heard.get('/simulator/truth')
 
     def state(self):
-        return self.statuses[-1].state if self.statuses else None
+        status = self.heard.get('/planner/status')
+        return status.state if status else None
 
     def take_off(self, seed, map_changes=None):
         """Loads the three; the vehicle sets out as soon as there is a map."""
+        self.listen_to_flight()
+        self.loaders.clear()
         self.map_loader = self.load('fiimap/MappingNodelet', 'map', {**MAP, **(map_changes or {})},
                                     'depth/image:=/camera/depth/image_raw',
                                     'depth/camera_info:=/camera/depth/camera_info')
         listener = self.listen()
+        self.loaders.append(self.map_loader)
         wait_for(listener.is_connected, 'the map')
         planner = self.load('fiimap/PlannerNodelet', 'planner', PLANNER)
         simulator = self.load('fiimap/SimulatorNodelet', 'simulator', {**SIMULATOR, 'seed': seed},
                               'map_statistics:=/map/statistics')
-        self.loaders = [simulator, planner, self.map_loader]
+        self.loaders += [planner, simulator]
         wait_for(lambda: self.truth and self.state() == PlannerStatus.FLYING, self.describe)
 
     def land(self):
-        for loader in self.loaders:
+        self.stop_listening()
+        for loader in reversed(self.loaders):
             self.unload(loader)
-        self.truth = None
-        self.statuses.clear()
 
     def describe(self):
-        return f'the flight: {self.statuses[-1:]} {self.truth}'
+        return f'the flight: {self.heard}'
 
     def fly(self, seed, map_changes=None):
         """The truth at the end of a flight to the goal."""
-        self.take_off(seed, map_changes)
-        wait_for(lambda: self.state() == PlannerStatus.GOAL_REACHED, self.describe)
-        truth = self.truth
-        self.land()
-        return truth
+        try:
+            self.take_off(seed, map_changes)
+            wait_for(lambda: self.state() == PlannerStatus.GOAL_REACHED, self.describe)
+            return self.truth
+        finally:
+            self.land()
 
     def assert_safe(self, truth):
         self.assertEqual(truth.collisions, 0, truth)

@@ -1,5 +1,6 @@
 #include "map_watch.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace fiimap {
@@ -45,7 +46,8 @@ std::string MapWatch::findTrouble(double time) const {
            "parameter map";
   }
   if (!newest_) return "the map " + map_ + " has no scan yet: see its warnings and /diagnostics";
-  if (time - newest_time_ > timeout_) {
+  // Also after a jump back in time: what was new before it may be long ago.
+  if (std::abs(time - newest_time_) > timeout_) {
     std::ostringstream text;
     text << "the map " << map_ << " had no new scan for more than " << timeout_
          << " s: see its warnings and /diagnostics";

@@ -1,5 +1,6 @@
 #include "vehicle_watch.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "planner_messages.h"
@@ -27,7 +28,8 @@ VehicleWatch::View VehicleWatch::look(double time, const std::string& map_frame)
   view.state = toVehicleState(*newest_);
   std::ostringstream trouble;
   const std::string& frame = newest_->header.frame_id;
-  if (time - newest_time_ > timeout_) {
+  // Also after a jump back in time: what came before it may be long ago.
+  if (std::abs(time - newest_time_) > timeout_) {
     trouble << "there was no odometry for more than " << timeout_ << " s";
   } else if (!isFinite(view.state)) {
     trouble << "the odometry is not finite";

@@ -42,6 +42,7 @@ Setpoint toSetpoint(const trajectory_msgs::MultiDOFJointTrajectory& command,
   if (its_frame != frame) {
     throw std::invalid_argument("its frame is '" + its_frame + "', it must be '" + frame + "'");
   }
+  if (command.header.stamp.isZero()) throw std::invalid_argument("its stamp is not set");
   if (command.points.size() != 1 || command.points[0].transforms.size() != 1) {
     throw std::invalid_argument("it must have exactly one point with one transform");
   }
