@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "flight.h"
+#include "flight_record.h"
+#include "flight_settings.h"
+
+namespace fiimap {
+
+/// How a flight ended, and what happened on the way.
+struct FlightOutcome {
+  bool reached = false;
+  double seconds = 0.0;  ///< simulated, from the start
+  sim::FlightRecord truth;
+  FlightStatus planner;
+  std::vector<double> update_ms;    ///< wall-clock time of each update of the map
+  std::vector<double> planning_ms;  ///< likewise of each step of the planner that planned
+};
+
+/// Flies from the start of a world to its goal: simulator, map and planner in one thread, in steps
+/// of simulated time. The same settings give the same flight. Planning and mapping take no
+/// simulated time.
+/// \throws std::invalid_argument when the settings are not valid.
+FlightOutcome flyClosedLoop(const FlightSettings& settings);
+
+}  // namespace fiimap
