@@ -3,6 +3,8 @@
 #include <cstring>
 #include <vector>
 
+#include "fiimap/ros/geometry_messages.h"
+
 namespace fiimap {
 namespace {
 
@@ -23,14 +25,6 @@ void addField(const std::string& name, std::uint32_t offset, sensor_msgs::PointC
   field.datatype = sensor_msgs::PointField::FLOAT32;
   field.count = 1;
   cloud->fields.push_back(field);
-}
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
 }
 
 }  // namespace

@@ -4,19 +4,13 @@
 
 #include <Eigen/Geometry>
 
+#include "fiimap/ros/geometry_messages.h"
+
 namespace fiimap {
 namespace {
 
 constexpr double kTrajectoryStep = 0.05;                                 // s
 constexpr double kLineWidth = 0.05, kPathWidth = 0.03, kGoalSize = 0.4;  // m
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
 
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v) {
   geometry_msgs::Vector3 vector;

@@ -1,3 +1,4 @@
+#include "fiimap/ros/geometry_messages.h"
 #include "simulator_messages.h"
 
 namespace fiimap::sim {
@@ -8,14 +9,6 @@ constexpr float kMovingColor[3] = {0.9f, 0.4f, 0.1f};
 constexpr float kVehicleColor[3] = {0.1f, 0.4f, 0.9f};
 constexpr float kGoalColor[3] = {0.1f, 0.8f, 0.2f};
 constexpr double kGoalSize = 0.5;  // m
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& vector) {
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
-}
 
 visualization_msgs::Marker makeMarker(int type, const std::string& name, int id,
                                       const Eigen::Vector3d& position_W, double size,
