@@ -14,6 +14,7 @@ constexpr double kMaxLead = 2.0;     // s
 constexpr double kResting = 0.05;    // m/s
 constexpr double kProgress = 0.1;    // m, that a plan must lead elsewhere to be worth flying
 constexpr double kLookAhead = 1.0;   // m, of way to see where it leads
+constexpr double kRestTime = 0.2;    // s, after braking: commands are sent at their own moments
 
 double angleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
 
@@ -52,6 +53,12 @@ void Flight::restart() {
   last_attempt_ = -std::numeric_limits<double>::infinity();
 }
 
+/// Whether its rest may not have been commanded yet.
+bool Flight::hasJustBraked(double time) const {
+  return status_.state == FlightState::kBraking && flown_.current &&
+         !flown_.rests(time - kRestTime);
+}
+
 void Flight::step(const FlightInput& input) {
   if (flown_.current) flown_.advance(input.time);
   const std::string& trouble =
@@ -59,7 +66,7 @@ void Flight::step(const FlightInput& input) {
   if (!trouble.empty()) {
     if (flown_.current && !flown_.rests(input.time)) {
       brake(trouble);
-    } else {
+    } else if (!hasJustBraked(input.time)) {
       set(FlightState::kWaiting, trouble);
       // Nobody knows where the vehicle is: a place to keep would be a guess.
       if (!input.odometry_trouble.empty()) flown_ = {};

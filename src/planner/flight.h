@@ -77,6 +77,7 @@ class Flight {
   void accept(Trajectory trajectory, const FlightInput& input);
   bool mustTurnFirst(const Trajectory& trajectory, const FlightInput& input);
   void brake(const std::string& reason);
+  bool hasJustBraked(double time) const;
   std::optional<double> nextCollision(const FlightInput& input) const;
   double timeToBrake(double time) const;
   void set(FlightState state, const std::string& reason);
