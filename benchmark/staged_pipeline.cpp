@@ -8,7 +8,7 @@ StagedPipeline::StagedPipeline(const MapperConfig& config, const std::vector<Fra
     : config_(config),
       frames_(frames),
       projector_(config),
-      ray_caster_(VoxelLattice(config.resolution), config.ray_end_cut),
+      ray_caster_(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover),
       integrator_(LogOdds(config)),
       inflater_(makeInflater(config)),
       grid_(VoxelLattice(config.resolution).sizeOf(config.mapSize())) {

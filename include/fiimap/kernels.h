@@ -84,6 +84,8 @@ struct RayEnds {
   static constexpr std::int32_t kLeavesBox = 1 << 24;  ///< more than any height
   std::vector<std::int32_t> column;                    ///< offset of its lowest word
   std::vector<std::int32_t> z;
+  /// The points first[k] to first[k + 1] - 1 end in voxel k.
+  std::vector<std::int32_t> first;
   int size = 0;
 
   /// Makes room for what a kernel may write.

@@ -52,6 +52,7 @@ struct MapperConfig {
   double min_ray_length = 0.3;
   double max_ray_length = 8.0;
   double ray_end_cut = 2.25;
+  double min_hit_cover = 0.05;
 
   double p_hit = 0.65;
   double p_miss = 0.30;

@@ -69,10 +69,13 @@ struct RangeData {
   PointList returns;
   /// Where rays that met nothing were cut off: free space up to and including this point.
   PointList misses;
+  /// Returns that a surface gives which fills a steradian of the view; 0 when not known.
+  double returns_per_steradian = 0.0;
 
   void clear() {
     returns.clear();
     misses.clear();
+    returns_per_steradian = 0.0;
   }
 };
 

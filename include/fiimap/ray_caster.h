@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiimap/hit_cover.h"
 #include "fiimap/kernels.h"
 #include "fiimap/range_data.h"
 #include "fiimap/scan_mask.h"
@@ -24,7 +25,8 @@ struct RayCount {
 /// - Free is every voxel that the segment from the origin to the ray's end touches (Amanatides &
 ///   Woo 1987), where a miss's segment ends in the centre of its voxel and a return's segment
 ///   `end_cut` voxel edges before it.
-/// A voxel may be both hit and free; who reads the mask lets the hit win.
+/// A voxel may be both hit and free; who reads the mask lets the hit win, but HitCover takes the hit
+/// from those that hold a sliver.
 ///
 /// Coordinates are single precision, in voxel edges from the box's corner: exact to 1e-4 voxel
 /// edges in a box of 1000 voxels a side.
@@ -35,7 +37,8 @@ struct RayCount {
 class RayCaster {
  public:
   /// \param end_cut voxel edges, >= 0.
-  RayCaster(const VoxelLattice& lattice, double end_cut);
+  /// \param min_hit_cover share of a voxel's face, 0 to 1; see HitCover.
+  RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover = 0.0);
 
   /// Casts all rays of `scan` inside `box` into `mask`, which is begun anew.
   RayCount cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask);
@@ -49,9 +52,8 @@ class RayCaster {
   };
 
   void markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count);
-  void markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* mask, RayCount* count);
-  static void markVoxel(std::int32_t column, int z, bool is_return, ScanMask* mask,
-                        RayCount* count);
+  void listEnds(const PointList& ends, const ScanMask& mask);
+  void listEnd(const Eigen::Vector3f& ray, const ScanMask& mask);
   void walkTo(int end_x, int end_y, ScanMask* mask);
   void carve(int end_x, int end_y, ScanMask* mask);
   void carveFan(const Fan& fan, ScanMask* mask);
@@ -62,6 +64,7 @@ class RayCaster {
 
   VoxelLattice lattice_;
   float end_cut_;
+  HitCover hit_cover_;
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();  // of the scan, in voxels relative to the box
   RayEnds ends_;
   ColumnWalk walk_;

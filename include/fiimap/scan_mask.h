@@ -27,6 +27,12 @@ class ScanMask {
   /// Where the words of a column begin within a layer.
   std::int32_t columnOffset(int x, int y) const { return (x * size_.y() + y) * words_; }
 
+  /// Voxel of a bit of a word of a layer.
+  VoxelIndex voxelAt(std::int32_t word, int bit) const {
+    const std::int32_t column = word / words_;
+    return {column / size_.y(), column % size_.y(), word % words_ * kWordBits + bit};
+  }
+
   std::uint64_t* column(Layer layer, int x, int y) {
     return bits_[layer].data() + columnOffset(x, y);
   }

@@ -60,7 +60,7 @@ Mapper::Mapper(const MapperConfig& config)
       grid_(lattice_.sizeOf(config.mapSize())),
       depth_projector_(config),
       point_projector_(config),
-      ray_caster_(lattice_, config.ray_end_cut),
+      ray_caster_(lattice_, config.ray_end_cut, config.min_hit_cover),
       integrator_(log_odds_),
       inflater_(makeInflater(config)) {}
 

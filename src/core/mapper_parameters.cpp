@@ -98,6 +98,8 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
                       "rays are cut off at this length; farther points do not mark obstacles"),
       numberParameter("ray_end_cut", &c->ray_end_cut, 0.0, 100.0, "voxels",
                       "a ray frees voxels up to this far in front of the surface that it met"),
+      numberParameter("min_hit_cover", &c->min_hit_cover, 0.0, 1.0, "of a voxel's face",
+                      "depth images: a voxel that rays pass is hit if returns cover this share"),
 
       numberParameter("p_hit", &c->p_hit, 0.501, 0.999, "",
                       "probability of occupancy after one hit (eq. 6)"),

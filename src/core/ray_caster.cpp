@@ -43,8 +43,11 @@ int ceilToInt(float value) { return -floorToInt(-value); }
 
 }  // namespace
 
-RayCaster::RayCaster(const VoxelLattice& lattice, double end_cut)
-    : lattice_(lattice), end_cut_(static_cast<float>(end_cut)), kernels_(kernels()) {}
+RayCaster::RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover)
+    : lattice_(lattice),
+      end_cut_(static_cast<float>(end_cut)),
+      hit_cover_(min_hit_cover),
+      kernels_(kernels()) {}
 
 RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask) {
   mask->begin(box);
@@ -54,8 +57,8 @@ RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* m
 
   // Relative to the box, so that coordinates are small wherever the vehicle is.
   origin_ = (scan.origin / lattice_.resolution() - box.min.cast<double>()).cast<float>();
-  markEnds(scan.returns, true, mask, &count);
   markEnds(scan.misses, false, mask, &count);
+  markEnds(scan.returns, true, mask, &count);  // last: ends_ is read again below
   for (const std::int32_t offset : mask->endColumns()) {
     const int column = offset / mask->wordsPerColumn();
     const int x = column / size.y();
@@ -63,55 +66,63 @@ RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* m
     walkTo(x, y, mask);
     carve(x, y, mask);
   }
+  count.hits -= hit_cover_.dropSlivers(scan, ends_, origin_, lattice_.resolution(), mask);
   return count;
 }
 
 void RayCaster::markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count) {
+  listEnds(ends, *mask);
+  for (int k = 0; k < ends_.size; ++k) {
+    const bool leaves = ends_.z[k] >= RayEnds::kLeavesBox;
+    const bool is_return = are_returns && !leaves;
+    const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
+    const bool is_new = mask->markEnd(layer, ends_.column[k], ends_.z[k] % RayEnds::kLeavesBox);
+    if (is_new) ++(is_return ? count->hits : count->misses);
+  }
+}
+
+void RayCaster::listEnds(const PointList& ends, const ScanMask& mask) {
   const float to_voxels = static_cast<float>(1.0 / lattice_.resolution());
-  const Eigen::Array3f size = mask->size().cast<float>();
+  const int count = static_cast<int>(ends.size());
+  const Eigen::Array3f size = mask.size().cast<float>();
   if ((origin_.array() < 0.0f).any() || (origin_.array() > size).any()) {
     // Rays that enter the box on their way are too rare for a kernel.
-    for (const Eigen::Vector3f& end : ends) markEnd(end * to_voxels, are_returns, mask, count);
+    ends_.reserve(count);
+    ends_.size = 0;
+    for (const Eigen::Vector3f& end : ends) listEnd(end * to_voxels, mask);
+    ends_.first[ends_.size] = ends_.size;
     return;
   }
   EndPoints points;
   points.x = ends.x();
   points.y = ends.y();
   points.z = ends.z();
-  points.count = static_cast<int>(ends.size());
+  points.count = count;
   points.to_voxels = to_voxels;
-  points.words = mask->wordsPerColumn();
+  points.words = mask.wordsPerColumn();
   for (int axis = 0; axis < 3; ++axis) {
     points.origin[axis] = origin_[axis];
-    points.size[axis] = mask->size()[axis];
+    points.size[axis] = mask.size()[axis];
   }
   kernels_.listEnds(points, &ends_);
-  for (int k = 0; k < ends_.size; ++k) {
-    const bool leaves = ends_.z[k] >= RayEnds::kLeavesBox;
-    const int z = ends_.z[k] % RayEnds::kLeavesBox;
-    markVoxel(ends_.column[k], z, are_returns && !leaves, mask, count);
-  }
 }
 
 /// Of a sensor anywhere.
-void RayCaster::markEnd(const Eigen::Vector3f& ray, bool is_return, ScanMask* mask,
-                        RayCount* count) {
-  const VoxelIndex& size = mask->size();
+void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask) {
+  const VoxelIndex& size = mask.size();
   const Eigen::Vector3f end = origin_ + ray;
   VoxelIndex v = end.cast<int>();  // the floor, inside the box
+  std::int32_t leaves = 0;
   if (!((end.array() >= 0.0f).all() && (end.array() < size.cast<float>().array()).all())) {
     const Span span = clipToBox(origin_, ray, size);
     if (span.empty()) return;
     v = nearestVoxel(origin_ + span.exit * ray, size);
-    is_return = false;
+    leaves = RayEnds::kLeavesBox;
   }
-  markVoxel(mask->columnOffset(v.x(), v.y()), v.z(), is_return, mask, count);
-}
-
-void RayCaster::markVoxel(std::int32_t column, int z, bool is_return, ScanMask* mask,
-                          RayCount* count) {
-  const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
-  if (mask->markEnd(layer, column, z)) ++(is_return ? count->hits : count->misses);
+  ends_.column[ends_.size] = mask.columnOffset(v.x(), v.y());
+  ends_.z[ends_.size] = v.z() + leaves;
+  ends_.first[ends_.size] = ends_.size;
+  ++ends_.size;
 }
 
 /// The line of the rays to an end column over the columns of the mask.

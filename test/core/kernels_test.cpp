@@ -5,9 +5,9 @@
 #include <cstring>
 #include <limits>
 #include <ostream>
-#include <set>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -121,10 +121,14 @@ TEST_P(KernelsTest, ListEnds) {
     const auto run = [&](const Kernels& kernels) {
       RayEnds ends;
       kernels.listEnds(points, &ends);
-      std::set<std::pair<int, int>> set;
-      for (int k = 0; k < ends.size; ++k) set.emplace(ends.column[k], ends.z[k]);
+      std::vector<std::pair<int, int>> end_of;
+      for (int k = 0; k < ends.size; ++k) {
+        EXPECT_EQ(ends.first[k], static_cast<int>(end_of.size()));
+        end_of.resize(ends.first[k + 1], {ends.column[k], ends.z[k]});
+      }
+      EXPECT_EQ(static_cast<int>(end_of.size()), count);
       EXPECT_TRUE(spread > 0.1f || count < 50 || ends.size < count) << "leaves something out";
-      return set;
+      return end_of;
     };
     ASSERT_EQ(run(tested_), run(plain_));
   }

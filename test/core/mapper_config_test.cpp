@@ -58,6 +58,7 @@ std::vector<FieldOfParameter> fields() {
       number("min_ray_length", &C::min_ray_length, 0.55),
       number("max_ray_length", &C::max_ray_length, 7.5),
       number("ray_end_cut", &C::ray_end_cut, 0.5),
+      number("min_hit_cover", &C::min_hit_cover, 0.2),
       number("p_hit", &C::p_hit, 0.60),
       number("p_miss", &C::p_miss, 0.45),
       number("p_min", &C::p_min, 0.2),
@@ -149,7 +150,7 @@ TEST(MapperParametersTest, RangesAreEnforcedAsDescribed) {
     }
     EXPECT_EQ(parameter.get(), in_range);
   }
-  EXPECT_EQ(numeric, 27) << "numeric parameters whose description names no range";
+  EXPECT_EQ(numeric, 28) << "numeric parameters whose description names no range";
 }
 
 TEST(MapperParametersTest, RefuseTheWrongType) {
@@ -186,7 +187,7 @@ TEST(MapperConfigTest, ValidateRefusesNumbersThatAreNotFinite) {
       EXPECT_TRUE(contains(refusal(config), field.name)) << field.name << " = " << bad;
     }
   }
-  EXPECT_EQ(numbers, 25);
+  EXPECT_EQ(numbers, 26);
 }
 
 TEST(MapperConfigTest, ValidateRefusesNumbersOutOfRange) {

@@ -27,6 +27,7 @@ void RayEnds::reserve(int count) {
   if (column.size() >= room) return;
   column.resize(room);
   z.resize(room);
+  first.resize(room);
 }
 
 void ColumnWalk::reserve(int slabs) {

@@ -62,9 +62,11 @@ inline void listEnds(const EndPoints& points, RayEnds* ends) {
       }
       ends->column[ends->size] = (v[0] * points.size[1] + v[1]) * points.words;
       ends->z[ends->size] = v[2] + (leaves ? RayEnds::kLeavesBox : 0);
+      ends->first[ends->size] = first + j;
       ++ends->size;
     }
   }
+  ends->first[ends->size] = points.count;
 }
 
 inline void walk(const ColumnLine& line, ColumnWalk* walk) {

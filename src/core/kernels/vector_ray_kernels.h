@@ -72,15 +72,16 @@ HWY_INLINE EndVoxels endVoxels(const EndPoints& points, int i) {
   return ends;
 }
 
-/// Appends the ends of the rays in `listed`.
-HWY_INLINE void appendEnds(const EndPoints& points, const EndVoxels& v, hn::Mask<Ints> listed,
-                           RayEnds* ends) {
+/// Appends the ends of the rays in `listed`, of those from `first` on.
+HWY_INLINE void appendEnds(const EndPoints& points, const EndVoxels& v, int first,
+                           hn::Mask<Ints> listed, RayEnds* ends) {
   const Ints d;
   const auto index = hn::Add(hn::Mul(v.x, hn::Set(d, points.size[1])), v.y);
   const auto column = hn::Mul(index, hn::Set(d, points.words));
   const auto leaving = hn::RebindMask(d, v.leaving);
   const auto z = hn::Or(v.z, hn::IfThenElseZero(leaving, hn::Set(d, RayEnds::kLeavesBox)));
   pack(d, column, listed, ends->column.data() + ends->size);
+  pack(d, hn::Iota(d, first), listed, ends->first.data() + ends->size);
   ends->size += pack(d, z, listed, ends->z.data() + ends->size);
 }
 
@@ -89,8 +90,11 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   ends->reserve(points.count);
   ends->size = 0;
-  if (points.count == 0) return;
-  appendEnds(points, endVoxels(points, 0), hn::FirstN(d, 1), ends);
+  if (points.count == 0) {
+    ends->first[0] = 0;
+    return;
+  }
+  appendEnds(points, endVoxels(points, 0), 0, hn::FirstN(d, 1), ends);
   for (int i = 1; i < points.count; i += lanes) {
     // The points before are computed again: this is cheaper than to hand lanes over.
     const EndVoxels before = endVoxels(points, i - 1);
@@ -100,8 +104,9 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
     const auto leaves_alone = hn::RebindMask(d, hn::Xor(now.leaving, before.leaving));
     const auto changed = hn::Or(elsewhere, leaves_alone);
     const auto listed = hn::And(changed, hn::FirstN(d, std::min(lanes, points.count - i)));
-    if (!hn::AllFalse(d, listed)) appendEnds(points, now, listed, ends);
+    if (!hn::AllFalse(d, listed)) appendEnds(points, now, i, listed, ends);
   }
+  ends->first[ends->size] = points.count;
 }
 
 void walk(const ColumnLine& line, ColumnWalk* walk) {
