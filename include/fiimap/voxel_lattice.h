@@ -44,18 +44,19 @@ int floorToInt(Scalar value) {
 class VoxelLattice {
  public:
   /// \param resolution edge length of a voxel in metres, > 0.
-  explicit VoxelLattice(double resolution) : resolution_(resolution) {}
+  explicit VoxelLattice(double resolution)
+      : resolution_(resolution), voxels_per_metre_(1.0 / resolution) {}
 
   double resolution() const { return resolution_; }
 
   /// Voxel that holds the point (metres). Requires canIndex(point_W).
   VoxelIndex indexOf(const Eigen::Vector3d& point_W) const {
-    return floorOf(point_W / resolution_);
+    return floorOf(point_W * voxels_per_metre_);
   }
   /// Voxel of the box that holds the point (metres).
   /// \return false when none does, or the point is not finite; v is left as it was.
   bool indexIn(const VoxelBox& box, const Eigen::Vector3d& point_W, VoxelIndex* v) const {
-    const Eigen::Vector3d p = point_W / resolution_;
+    const Eigen::Vector3d p = point_W * voxels_per_metre_;
     const bool inside = (p.array() >= box.min.cast<double>().array()).all() &&
                         (p.array() < box.max.cast<double>().array()).all();
     if (inside) *v = floorOf(p);
@@ -84,6 +85,7 @@ class VoxelLattice {
   }
 
   double resolution_;
+  double voxels_per_metre_;  // multiplied with: a division is a third of the time of a query
 };
 
 }  // namespace fiimap

@@ -17,7 +17,7 @@ std::int64_t VoxelBox::volume() const {
 }
 
 bool VoxelLattice::canIndex(const Eigen::Vector3d& point_W) const {
-  return point_W.allFinite() && point_W.cwiseAbs().maxCoeff() / resolution_ < kMaxAbsIndex;
+  return point_W.allFinite() && point_W.cwiseAbs().maxCoeff() * voxels_per_metre_ < kMaxAbsIndex;
 }
 
 VoxelIndex VoxelLattice::sizeOf(const Eigen::Vector3d& extent) const {
