@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <stdexcept>
 
@@ -34,8 +36,9 @@ void replaceFile(const std::string& directory, const std::string& name,
     refuse(file + ": " + error.what());
   }
   if (std::rename(partial.c_str(), file.c_str()) != 0) {
+    const std::string why = std::strerror(errno);
     std::remove(partial.c_str());
-    refuse(file + ": cannot be written");
+    refuse(file + ": cannot be written: " + why);
   }
 }
 

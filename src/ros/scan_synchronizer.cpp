@@ -86,7 +86,7 @@ void ScanSynchronizer::refuseDoubtfulPose() {
 }
 
 void ScanSynchronizer::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
-  poses_.addTf(transforms, is_static);
+  poses_.addTf(transforms, is_static, newest_scan_);
   emitReadyScans();
 }
 
