@@ -1,17 +1,14 @@
 #!/usr/bin/python3
 """Spoiled input is counted under its reason, diagnostics say what to do, and mapping goes on."""
 import itertools
-import time
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 
-from rostest_support import MapTest, wait_for
-from vehicle import Vehicle
+from rostest_support import wait_for
+from vehicle_support import ENOUGH, VehicleTest
 
-ENOUGH = 3  # scans
-PAUSE = 0.02  # s between scans
 PARAMETERS = {'max_pose_wait': 0.3, 'pixel_step': 1, 'publish_rate': 100.0}
 
 
@@ -42,28 +39,9 @@ def with_more_data(image):
     return image
 
 
-class BadInputTest(MapTest):
-    def setUp(self):
-        self.vehicle = Vehicle()
-        self.addCleanup(self.vehicle.close)
-
+class BadInputTest(VehicleTest):
     def start_vehicle(self):
-        self.node, self.listener = self.start_map(PARAMETERS)
-        wait_for(self.vehicle.is_connected, 'the connections of the vehicle')
-
-    def fly_until(self, condition, what, **changes):
-        def step():
-            self.assertTrue(self.node.is_running(), self.node.output())
-            self.vehicle.fly(**changes)
-            time.sleep(PAUSE)
-            return condition()
-        return wait_for(step, what)
-
-    def fly_well(self):
-        """Flies until scans are integrated, again."""
-        goal = self.listener.newest().integrated + ENOUGH
-        self.fly_until(lambda: self.listener.newest().integrated >= goal,
-                       lambda: f'integrated scans: {self.listener.state()}')
+        self.start_flying(PARAMETERS)
 
     def input_status(self):
         return self.listener.diagnostics.get('inputs', DiagnosticStatus())

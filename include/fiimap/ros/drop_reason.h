@@ -7,7 +7,7 @@ namespace fiimap {
 
 /// Why a scan did not become part of the map.
 enum class DropReason {
-  kZeroStamp,      ///< the message has no stamp
+  kZeroStamp,      ///< the message has no stamp, or one that is no time
   kStaleStamp,     ///< not newer than the scan before, or alone far from all others
   kTimeJump,       ///< waited while the stamps jumped back
   kQueueFull,      ///< displaced by newer scans while it waited for its pose
