@@ -17,11 +17,12 @@ void requireName(const std::string& name) {
   const bool allowed = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-' || c == '.';
   });
-  if (name.empty() || name.front() == '.' || !allowed) {
-    refuse("name '" + name +
-           "': must consist of letters, digits, '_', '-' and '.', and not begin "
-           "with '.'");
-  }
+  if (!name.empty() && name.front() != '.' && allowed) return;
+  std::string printable = name;  // a 0 would end the message
+  std::replace_if(
+      printable.begin(), printable.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+  refuse("name '" + printable +
+         "': must consist of letters, digits, '_', '-' and '.', and not begin with '.'");
 }
 
 /// Writes beside the file first, so that a crash or a full disk leaves no half file of that name.

@@ -104,9 +104,9 @@ void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received) {
   }
   const ros::Time stamp = shifted(header.stamp, config_.time_offset);
   if (stamp.isZero()) {
-    listener_->onDrop({DropReason::kZeroStamp, "a scan's stamp of " +
-                                                   std::to_string(header.stamp.toSec()) +
-                                                   " s is no time"});
+    listener_->onDrop(
+        {DropReason::kZeroStamp,
+         "a scan's stamp of " + std::to_string(header.stamp.toSec()) + " s is no time"});
     return;
   }
   add(WaitingScan{scan, plainFrame(header.frame_id), stamp, received});

@@ -28,8 +28,8 @@ void ScanEvaluator::play(const EvaluationInput& input) {
   progress_ = nullptr;
   if (!counters_.conserved()) {
     throw std::logic_error("scans were lost: " + std::to_string(counters_.received) +
-                           " received, " + std::to_string(counters_.integrated) +
-                           " integrated, " + std::to_string(counters_.dropped()) + " dropped");
+                           " received, " + std::to_string(counters_.integrated) + " integrated, " +
+                           std::to_string(counters_.dropped()) + " dropped");
   }
   if (counters_.integrated > 0) return;
   progress.end();

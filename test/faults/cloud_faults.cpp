@@ -31,9 +31,9 @@ void fill(PointCloud2* cloud, const std::vector<float>& values) {
 }
 
 void sendEveryOtherType(FaultRig* rig) {
-  for (const int type : {PointField::INT8 + 0, PointField::UINT8 + 0, PointField::INT16 + 0,
-                         PointField::UINT16 + 0, PointField::INT32 + 0, PointField::UINT32 + 0,
-                         PointField::FLOAT64 + 0, 0, 9, 255}) {
+  for (const int type :
+       {PointField::INT8 + 0, PointField::UINT8 + 0, PointField::INT16 + 0, PointField::UINT16 + 0,
+        PointField::INT32 + 0, PointField::UINT32 + 0, PointField::FLOAT64 + 0, 0, 9, 255}) {
     Frame frame = rig->next();
     frame.cloud->fields[2].datatype = static_cast<std::uint8_t>(type);
     rig->send(frame);
@@ -77,8 +77,7 @@ MessageFaults cloudFaults() {
          c->fields.push_back(c->fields[0]);
          c->fields.back().offset += 4;
        })},
-      {"cloud_float64",
-       cloud([](PointCloud2* c) { c->fields[0].datatype = PointField::FLOAT64; })},
+      {"cloud_float64", cloud([](PointCloud2* c) { c->fields[0].datatype = PointField::FLOAT64; })},
       {"cloud_integers", {RigInputs::kPoints, sendEveryOtherType}},
       {"cloud_offset_beyond", cloud([](PointCloud2* c) { c->fields[2].offset = 13; })},
       {"cloud_offset_overflow", cloud([](PointCloud2* c) { c->fields[1].offset = kMax; })},
@@ -92,8 +91,7 @@ MessageFaults cloudFaults() {
        })},
       {"cloud_data_short", cloud([](PointCloud2* c) { c->data.pop_back(); })},
       {"cloud_big_endian", cloud([](PointCloud2* c) { c->is_bigendian = !c->is_bigendian; })},
-      {"cloud_not_finite",
-       cloud([](PointCloud2* c) {
+      {"cloud_not_finite", cloud([](PointCloud2* c) {
          fill(c, {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1.0F});
        })},
       {"cloud_far", cloud([](PointCloud2* c) { fill(c, {1e15F}); })},
@@ -103,13 +101,14 @@ MessageFaults cloudFaults() {
          makeEmpty(c);
          c->height = kMax;
        })},
-      {"cloud_ten_million", {RigInputs::kPoints,
-                             [](FaultRig* rig) {
-                               Frame frame = rig->next();
-                               makeLarge(&*frame.cloud);
-                               rig->send(frame);
-                             },
-                             true}},
+      {"cloud_ten_million",
+       {RigInputs::kPoints,
+        [](FaultRig* rig) {
+          Frame frame = rig->next();
+          makeLarge(&*frame.cloud);
+          rig->send(frame);
+        },
+        true}},
       {"cloud_zero_stamp", cloud([](PointCloud2* c) { c->header.stamp = ros::Time(); })},
       {"cloud_same_stamp", {RigInputs::kPoints, sendTwiceTheSameStamp}},
   };

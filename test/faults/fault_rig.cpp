@@ -12,12 +12,12 @@
 namespace fiimap {
 namespace {
 
-constexpr double kPoseDistance = 0.02;                // s between the poses around a scan
-constexpr double kScanBeforePose = 0.01;              // s
-constexpr double kFocalLength = 25.0;                 // pixels
-constexpr double kMillimetre = 0.001;                 // m
-constexpr std::chrono::milliseconds kPoll{1};         // of settle()
-constexpr double kTimePerPoll = 0.01;                 // s of simulated time
+constexpr double kPoseDistance = 0.02;         // s between the poses around a scan
+constexpr double kScanBeforePose = 0.01;       // s
+constexpr double kFocalLength = 25.0;          // pixels
+constexpr double kMillimetre = 0.001;          // m
+constexpr std::chrono::milliseconds kPoll{1};  // of settle()
+constexpr double kTimePerPoll = 0.01;          // s of simulated time
 constexpr std::chrono::seconds kPatience{60};
 
 MapperConfig mapperConfig() {
@@ -55,8 +55,9 @@ sensor_msgs::CameraInfo cameraInfo() {
   sensor_msgs::CameraInfo info;
   info.width = FaultRig::kWidth;
   info.height = FaultRig::kHeight;
-  info.K = {kFocalLength, 0.0, FaultRig::kWidth / 2.0, 0.0, kFocalLength, FaultRig::kHeight / 2.0,
-            0.0,          0.0, 1.0};
+  info.K = {kFocalLength, 0.0,          FaultRig::kWidth / 2.0,
+            0.0,          kFocalLength, FaultRig::kHeight / 2.0,
+            0.0,          0.0,          1.0};
   return info;
 }
 

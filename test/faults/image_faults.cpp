@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 
-
 #include "message_faults.h"
 
 namespace fiimap {
@@ -90,10 +89,10 @@ void padRows(Image* image, std::size_t padding) {
 void sendAllOtherEncodings(FaultRig* rig) {
   namespace enc = sensor_msgs::image_encodings;
   std::vector<std::string> encodings = {
-      enc::RGBA8,       enc::RGB16,       enc::RGBA16,      enc::BGR8,        enc::BGRA8,
-      enc::BGR16,       enc::BGRA16,      enc::MONO8,       enc::BAYER_RGGB8, enc::BAYER_BGGR8,
-      enc::BAYER_GBRG8, enc::BAYER_GRBG8, enc::BAYER_RGGB16, enc::BAYER_BGGR16,
-      enc::BAYER_GBRG16, enc::BAYER_GRBG16, enc::YUV422};
+      enc::RGBA8,        enc::RGB16,       enc::RGBA16,       enc::BGR8,         enc::BGRA8,
+      enc::BGR16,        enc::BGRA16,      enc::MONO8,        enc::BAYER_RGGB8,  enc::BAYER_BGGR8,
+      enc::BAYER_GBRG8,  enc::BAYER_GRBG8, enc::BAYER_RGGB16, enc::BAYER_BGGR16, enc::BAYER_GBRG16,
+      enc::BAYER_GRBG16, enc::YUV422};
   for (const char* type : {"8U", "8S", "16U", "16S", "32S", "32F", "64F"}) {
     for (const char* channels : {"C1", "C2", "C3", "C4"}) {
       encodings.push_back(std::string(type) + channels);
@@ -160,17 +159,18 @@ MessageFaults cameraInfoFaults() {
         },
         true}},
       {"info_zeros", cameraInfo([](CameraInfo* info) { info->K.fill(0.0); })},
-      {"info_not_finite", {RigInputs::kDepth,
-                           [=](FaultRig* rig) {
-                             for (const int entry : {0, 2, 4, 5}) {
-                               for (const float value : {nan, infinity}) {
-                                 Frame frame = rig->next();
-                                 frame.info->K[entry] = value;
-                                 rig->send(frame);
-                                 rig->settle();
-                               }
-                             }
-                           }}},
+      {"info_not_finite",
+       {RigInputs::kDepth,
+        [=](FaultRig* rig) {
+          for (const int entry : {0, 2, 4, 5}) {
+            for (const float value : {nan, infinity}) {
+              Frame frame = rig->next();
+              frame.info->K[entry] = value;
+              rig->send(frame);
+              rig->settle();
+            }
+          }
+        }}},
       {"info_negative", cameraInfo([](CameraInfo* info) { info->K[4] *= -1.0; })},
       {"info_other_size", cameraInfo([](CameraInfo* info) {
          info->width = 640;
@@ -179,23 +179,25 @@ MessageFaults cameraInfoFaults() {
       {"info_binning", cameraInfo([](CameraInfo* info) {
          info->binning_x = info->binning_y = std::numeric_limits<std::uint32_t>::max();
        })},
-      {"info_distorted", {RigInputs::kDepth,
-                          [](FaultRig* rig) {
-                            Frame frame = rig->next();
-                            frame.info->D = {0.1, 0.0, 0.0, 0.0, 0.0};
-                            rig->send(frame);
-                          },
-                          true}},
-      {"info_changes", {RigInputs::kDepth,
-                        [](FaultRig* rig) {
-                          Frame frame = rig->next();
-                          frame.info.reset();
-                          frame.image->width /= 2;
-                          frame.image->height /= 2;
-                          frame.image->step /= 2;
-                          frame.image->data.resize(frame.image->data.size() / 4);
-                          rig->send(frame);
-                        }}},
+      {"info_distorted",
+       {RigInputs::kDepth,
+        [](FaultRig* rig) {
+          Frame frame = rig->next();
+          frame.info->D = {0.1, 0.0, 0.0, 0.0, 0.0};
+          rig->send(frame);
+        },
+        true}},
+      {"info_changes",
+       {RigInputs::kDepth,
+        [](FaultRig* rig) {
+          Frame frame = rig->next();
+          frame.info.reset();
+          frame.image->width /= 2;
+          frame.image->height /= 2;
+          frame.image->step /= 2;
+          frame.image->data.resize(frame.image->data.size() / 4);
+          rig->send(frame);
+        }}},
   };
 }
 
@@ -233,8 +235,7 @@ MessageFaults imageFaults() {
       {"image_late", stampedAt(-FaultRig::kPeriod - 0.5)},
       {"image_future", stampedAt(100.0)},
       {"image_past", stampedAt(-100.0)},
-      {"image_stamp_end_of_time",
-       image([](Image* i) { i->header.stamp = ros::TIME_MAX; })},
+      {"image_stamp_end_of_time", image([](Image* i) { i->header.stamp = ros::TIME_MAX; })},
       {"image_unknown_frame", image([](Image* i) { i->header.frame_id = "elsewhere"; })},
       {"image_no_frame", image([](Image* i) { i->header.frame_id.clear(); })},
       {"image_body_frame", {RigInputs::kDepth, sendBodyFrameImages, true}},

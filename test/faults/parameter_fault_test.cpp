@@ -68,16 +68,16 @@ Settings forAllRanges(const std::function<std::vector<double>(const Range&)>& va
 }
 
 Settings noNumbers() {
-  const std::vector<std::string> values = {"coarse", "",    "nan",  "inf", "-inf", "1e999",
+  const std::vector<std::string> values = {"coarse",  "",   "nan",  "inf", "-inf", "1e999",
                                            "0.5 0.5", "1x", "0x10", "0,5", "true"};
   return forAll(" in [", values);
 }
 
 Settings noChoices() {
   Settings settings;
-  for (const std::string name : {"map_mode", "invalid_depth", "infinite_depth", "beyond_max_depth",
-                                 "inflation_shape", "inflation_method", "bfs_connectivity",
-                                 "sensor", "pose_source", "extrinsics"}) {
+  for (const std::string name :
+       {"map_mode", "invalid_depth", "infinite_depth", "beyond_max_depth", "inflation_shape",
+        "inflation_method", "bfs_connectivity", "sensor", "pose_source", "extrinsics"}) {
     for (const std::string value : {"", "sonar", "Depth", "0"}) settings.push_back({{name, value}});
   }
   return settings;
@@ -96,12 +96,10 @@ Settings wrongOrders() {
 /// Settings by the id of their row. All of a row must be refused, but for those named as accepted.
 const std::map<std::string, Settings>& settings() {
   static const std::map<std::string, Settings> all = {
-      {"parameter_below",
-       forAllRanges([](const Range& r) {
+      {"parameter_below", forAllRanges([](const Range& r) {
          return std::vector<double>{r.min - 1e-6 * std::max(1.0, std::abs(r.min)), -1e300};
        })},
-      {"parameter_above",
-       forAllRanges([](const Range& r) {
+      {"parameter_above", forAllRanges([](const Range& r) {
          return std::vector<double>{r.max + 1e-6 * std::max(1.0, std::abs(r.max)), 1e300};
        })},
       {"parameter_at_its_limits", forAllRanges([](const Range& r) {
@@ -164,7 +162,8 @@ class ParameterFaultTest : public testing::TestWithParam<Fault> {
   static void expectInRange(const Setting& setting) {
     const auto& [name, value] = setting.front();
     for (const Parameter& parameter : allParameters()) {
-      if (parameter.name == name) EXPECT_NO_THROW(parameter.set(value)) << name << " " << value;
+      if (parameter.name != name) continue;
+      EXPECT_NO_THROW(parameter.set(value)) << name << " " << value;
     }
   }
 

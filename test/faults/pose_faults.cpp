@@ -93,13 +93,14 @@ MessageFaults poseFaults() {
       {"pose_twice", posesAt({-0.02, -0.02, 0.0, 0.0})},
       {"pose_jump", {RigInputs::kDepth, jump}},
       {"pose_gap", posesAt({0.1})},
-      {"pose_1_hz", {RigInputs::kDepth,
-                     [](FaultRig* rig) {
-                       rig->setNow(rig->now() + 0.5);
-                       Frame frame = rig->next();
-                       frame.poses = {rig->poseAt(rig->now() + 0.399)};
-                       rig->send(frame);
-                     }}},
+      {"pose_1_hz",
+       {RigInputs::kDepth,
+        [](FaultRig* rig) {
+          rig->setNow(rig->now() + 0.5);
+          Frame frame = rig->next();
+          frame.poses = {rig->poseAt(rig->now() + 0.399)};
+          rig->send(frame);
+        }}},
       {"pose_10_khz", {RigInputs::kDepth, fastPoses}},
       {"pose_too_old", posesAt({0.01, 0.02}, true)},
       {"pose_behind", {RigInputs::kDepth, lagBehind}},
