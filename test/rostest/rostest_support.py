@@ -256,7 +256,9 @@ class MapTest(unittest.TestCase):
             command += ['--set', f'{name}=' + ' '.join(str(word) for word in words)]
         evaluation = self.start(*command)
         self.assertEqual(evaluation.wait(), 0, evaluation.output())
-        return json.loads(report.read_text())
+        figures = json.loads(report.read_text())
+        self.assertEqual(figures['scans'], figures['integrated'] + sum(figures['dropped'].values()))
+        return figures
 
     def assert_clouds_equal_offline(self, listener, resolution):
         """The node's newest clouds show the voxels of the offline tool's map, no more, no less."""
