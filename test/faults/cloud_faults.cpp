@@ -1,5 +1,6 @@
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "message_faults.h"
 
@@ -57,6 +58,7 @@ void makeEmpty(PointCloud2* cloud) {
 /// Points of the wall, side by side up to 10 m to the left and to the right.
 void makeLarge(PointCloud2* cloud) {
   constexpr std::uint32_t kPoints = 10'000'000;
+  cloud->point_step = 3 * sizeof(float);
   cloud->width = kPoints;
   cloud->row_step = kPoints * cloud->point_step;
   cloud->data.assign(cloud->row_step, 0);

@@ -176,7 +176,7 @@ void FaultRig::sendTransform(const geometry_msgs::TransformStamped& transform, b
   });
 }
 
-void FaultRig::send(const Frame& frame) {
+void FaultRig::send(Frame frame) {
   for (const nav_msgs::Odometry& pose : frame.poses) sendPose(pose);
   for (const auto& transform : frame.transforms) sendTransform(transform);
   if (frame.info) {
@@ -185,9 +185,10 @@ void FaultRig::send(const Frame& frame) {
     mapping_->post([info](ScanSynchronizer* synchronizer) { synchronizer->add(info); });
   }
   sent_ += frame.image.has_value() + frame.cloud.has_value();
-  if (frame.image) mapping_->addScan(boost::make_shared<const sensor_msgs::Image>(*frame.image));
+  if (frame.image)
+    mapping_->addScan(boost::make_shared<const sensor_msgs::Image>(std::move(*frame.image)));
   if (frame.cloud) {
-    mapping_->addScan(boost::make_shared<const sensor_msgs::PointCloud2>(*frame.cloud));
+    mapping_->addScan(boost::make_shared<const sensor_msgs::PointCloud2>(std::move(*frame.cloud)));
   }
 }
 

@@ -58,7 +58,7 @@ class FaultRig : private MapObserver {
 
   /// A good frame of the next moment.
   Frame next();
-  void send(const Frame& frame);
+  void send(Frame frame);
   void sendPose(const nav_msgs::Odometry& pose);
   void sendTransform(const geometry_msgs::TransformStamped& transform, bool is_static = false);
   /// Sends good frames.

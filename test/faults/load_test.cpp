@@ -1,6 +1,6 @@
 // Three depth cameras and a LiDAR, each with its mapping thread as nodelets of one manager have,
 // at their rate and at ten times of it, beside a reader at full speed and one that holds on to old
-// snapshots. FIIMAP_LOAD_SECONDS: how long each, for figures; see docs/faults.md.
+// snapshots. FIIMAP_LOAD_SECONDS: how long each, for figures; see docs/load.md.
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -114,8 +114,8 @@ class LoadedMap : private MapObserver {
  public:
   LoadedMap(SensorKind sensor, double rate)
       : sensor_(sensor),
-        period_(std::chrono::duration_cast<Clock::duration>(
-            std::chrono::duration<double>(1.0 / rate))),
+        period_(
+            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))),
         handle_(std::make_shared<MapHandle>("load")),
         mapping_(mapperConfig(), nodeConfig(sensor), handle_, this) {
     mapping_.start();
@@ -155,8 +155,8 @@ class LoadedMap : private MapObserver {
     EXPECT_GT(counters.integrated, 0u);
     EXPECT_EQ(counters.dropped(), counters.dropped(DropReason::kOverload)) << counters.last_drop;
     const NodeConfig config;
-    EXPECT_LE(most_waiting_, static_cast<std::uint64_t>(config.scan_queue_size +
-                                                        config.ready_queue_size));
+    EXPECT_LE(most_waiting_,
+              static_cast<std::uint64_t>(config.scan_queue_size + config.ready_queue_size));
   }
   void print() const {
     const ScanCounters counters = mapping_.counters();
@@ -276,9 +276,8 @@ TEST_P(LoadTest, EveryScanIsAccountedForAndMemoryIsFlat) {
   std::atomic<bool> ended{false};
   FastReader reader;
   const auto feedAll = [&maps](double seconds) {
-    const auto end =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                           std::chrono::duration<double>(seconds));
+    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(seconds));
     std::vector<std::thread> feeders;
     for (const auto& map : maps) feeders.emplace_back([&map, end] { map->feed(end); });
     for (std::thread& feeder : feeders) feeder.join();
