@@ -205,7 +205,9 @@ class LiveFaultsTest(VehicleTest):
                           environment=environment)
         self.start(program('rosbag', 'play'), '--quiet', '--loop', '--wait-for-subscribers', bag,
                    environment=environment)
-        lines = lambda: len(echo.output().splitlines())
+
+        def lines():
+            return len(echo.output().splitlines())
         wait_for(lambda: lines() > 3, lambda: f'statistics: {node.output()} {echo.output()}')
         master.interrupt()
         self.start_master(port, environment)
