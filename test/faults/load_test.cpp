@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -20,21 +19,18 @@
 #include <boost/make_shared.hpp>
 
 #include "fiimap/ros/steady_time.h"
+#include "load_messages.h"
 #include "mapping_thread.h"
 
 namespace fiimap {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using ImagePtr = boost::shared_ptr<sensor_msgs::Image>;
-using CloudPtr = boost::shared_ptr<sensor_msgs::PointCloud2>;
 
 constexpr int kCameras = 3;
 constexpr double kCameraRate = 30.0, kLidarRate = 10.0;  // Hz
-constexpr int kWidth = 640, kHeight = 480;               // pixels
-constexpr int kLidarPoints = 28800;
-constexpr double kSpeed = 1.0, kCircle = 3.0;  // m/s, m
-constexpr double kMemoryGrowth = 64e6;         // bytes, noise of the allocator
+constexpr double kSpeed = 1.0, kCircle = 3.0;            // m/s, m
+constexpr double kMemoryGrowth = 64e6;                   // bytes, noise of the allocator
 
 double secondsPerRun() {
   const char* const seconds = std::getenv("FIIMAP_LOAD_SECONDS");
@@ -71,44 +67,6 @@ MapperConfig mapperConfig() {
   return config;
 }
 
-ImagePtr makeImage() {
-  const auto image = boost::make_shared<sensor_msgs::Image>();
-  image->encoding = "16UC1";
-  image->width = kWidth;
-  image->height = kHeight;
-  image->step = kWidth * sizeof(std::uint16_t);
-  image->data.resize(std::size_t{image->step} * kHeight);
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const auto depth = static_cast<std::uint16_t>(1500 + 500 * (i % kWidth / 80));
-    std::memcpy(&image->data[2 * static_cast<std::size_t>(i)], &depth, sizeof(depth));
-  }
-  return image;
-}
-
-CloudPtr makeCloud() {
-  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
-  cloud->point_step = 3 * sizeof(float);
-  cloud->width = kLidarPoints;
-  cloud->height = 1;
-  cloud->row_step = cloud->width * cloud->point_step;
-  cloud->data.resize(cloud->row_step);
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    sensor_msgs::PointField field;
-    field.name = std::string("xyz").substr(axis, 1);
-    field.offset = axis * sizeof(float);
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    cloud->fields.push_back(field);
-  }
-  for (int i = 0; i < kLidarPoints; ++i) {
-    const double angle = 2.0 * M_PI * i / kLidarPoints * 16.0;
-    const float point[3] = {static_cast<float>(5.0 * std::cos(angle)),
-                            static_cast<float>(5.0 * std::sin(angle)),
-                            0.1F * static_cast<float>(16 * i / kLidarPoints - 8)};
-    std::memcpy(&cloud->data[static_cast<std::size_t>(i) * sizeof(point)], point, sizeof(point));
-  }
-  return cloud;
-}
-
 /// A sensor at a rate, its map, and how old scans are when they can be read.
 class LoadedMap : private MapObserver {
  public:
@@ -121,9 +79,9 @@ class LoadedMap : private MapObserver {
     mapping_.start();
     mapping_.post([](ScanSynchronizer* synchronizer) {
       const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
-      info->width = kWidth;
-      info->height = kHeight;
-      info->K = {400.0, 0.0, kWidth / 2.0, 0.0, 400.0, kHeight / 2.0, 0.0, 0.0, 1.0};
+      info->width = kLoadWidth;
+      info->height = kLoadHeight;
+      info->K = {400.0, 0.0, kLoadWidth / 2.0, 0.0, 400.0, kLoadHeight / 2.0, 0.0, 0.0, 1.0};
       synchronizer->add(sensor_msgs::CameraInfoConstPtr(info));
     });
   }
