@@ -7,8 +7,6 @@
 namespace fiimap {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
-
 constexpr int kPercent = 100;
 
 const char* nameOf(Occupancy occupancy) {
@@ -52,23 +50,12 @@ std::string MappingDiagnostics::publish() {
   before_ = std::exchange(now_, totals());
   // Not update(): it would be silent after simulated time went back.
   updater_.force_update();
-  return missingInput();
+  return missingInput(inputs_.topics(), now_);
 }
 
 MappingDiagnostics::Totals MappingDiagnostics::totals() const {
   const InputCounts& counts = inputs_.counts();
-  return {Clock::now(), counts.scans, counts.camera_infos, counts.poses, counters_()};
-}
-
-std::string MappingDiagnostics::missingInput() const {
-  const std::string remedy = ": check that it is published and remapped";
-  const InputTopics& topics = inputs_.topics();
-  if (now_.scans == 0) return "no scans received on " + topics.scans + remedy;
-  if (!topics.camera_infos.empty() && now_.camera_infos == 0) {
-    return "no camera_info received on " + topics.camera_infos + remedy;
-  }
-  if (now_.poses == 0) return "no poses received on " + topics.poses + remedy;
-  return "";
+  return {{counts.scans, counts.camera_infos, counts.poses, counters_()}, Clock::now()};
 }
 
 void MappingDiagnostics::reportInputs(Status& status) {
@@ -77,20 +64,8 @@ void MappingDiagnostics::reportInputs(Status& status) {
     return seconds > 0.0 ? static_cast<double>(now - before) / seconds : 0.0;
   };
   const ScanCounters& counters = now_.counters;
-  const std::uint64_t dropped = counters.dropped() - before_.counters.dropped();
-  const std::uint64_t integrated = counters.integrated - before_.counters.integrated;
-  const std::string missing = missingInput();
-  if (!missing.empty()) {
-    status.summary(DiagnosticStatus::ERROR, missing);
-  } else if (now_.scans == before_.scans) {
-    status.summary(DiagnosticStatus::ERROR, "scans stopped on " + inputs_.topics().scans);
-  } else if (dropped > 0) {
-    status.summary(
-        integrated == 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-        (integrated == 0 ? "all scans dropped: " : "scans dropped: ") + counters.last_drop);
-  } else {
-    status.summary(DiagnosticStatus::OK, "scans and poses come in");
-  }
+  const DiagnosticSummary summary = summarizeInputs(inputs_.topics(), before_, now_);
+  status.summary(summary.level, summary.text);
   status.addf("scan rate [Hz]", "%.1f", rate(before_.scans, now_.scans));
   status.addf("camera_info rate [Hz]", "%.1f", rate(before_.camera_infos, now_.camera_infos));
   status.addf("pose rate [Hz]", "%.1f", rate(before_.poses, now_.poses));
@@ -105,33 +80,20 @@ void MappingDiagnostics::reportInputs(Status& status) {
   }
   status.add("last drop", counters.last_drop);
   status.add("poses refused", counters.refused_poses);
+  status.add("transforms refused", counters.refused_transforms);
   status.add("poses, transforms and camera infos displaced", counters.displaced_inputs);
 }
 
 void MappingDiagnostics::reportMap(Status& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!update_) {
-    status.summary(DiagnosticStatus::ERROR, "no map yet, see inputs");
-    return;
-  }
+  const DiagnosticSummary summary = summarizeMap(update_ ? &*update_ : nullptr, before_, now_);
+  status.summary(summary.level, summary.text);
+  if (!update_) return;
   const Snapshot& snapshot = *update_->snapshot;
-  const bool updating = now_.counters.integrated != before_.counters.integrated;
-  const Inflation at_vehicle = snapshot.inflation(update_->pose.vehicle_W);
-  if (!updating) {
-    status.summary(DiagnosticStatus::ERROR, "the map is not updated, see inputs");
-  } else if (at_vehicle == Inflation::kOutside) {
-    status.summary(DiagnosticStatus::ERROR,
-                   "the vehicle is outside of the map: see map_mode, map_center and map_size");
-  } else if (at_vehicle == Inflation::kInflated) {
-    status.summary(DiagnosticStatus::WARN, "the vehicle is inside an obstacle or its inflation");
-  } else if (update_->report.readings.returns == 0) {
-    status.summary(DiagnosticStatus::WARN, "no reading of the newest scan is within range");
-  } else {
-    status.summary(DiagnosticStatus::OK, "the map is updated");
-  }
   status.addf("map age [s]", "%.2f", secondsBetween(updated_, Clock::now()));
   status.add("vehicle cell", nameOf(snapshot.occupancy(update_->pose.vehicle_W)));
-  status.add("vehicle cell inflated", at_vehicle == Inflation::kInflated);
+  status.add("vehicle cell inflated",
+             snapshot.inflation(update_->pose.vehicle_W) == Inflation::kInflated);
   addUpdate(*update_, &status);
 }
 

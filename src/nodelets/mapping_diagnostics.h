@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -10,7 +9,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
-#include "fiimap/ros/scan_counters.h"
+#include "diagnostic_summary.h"
 #include "input_subscriber.h"
 #include "mapping_thread.h"
 
@@ -36,15 +35,11 @@ class MappingDiagnostics {
   using Clock = std::chrono::steady_clock;
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// Totals at one moment; the difference of two gives rates.
-  struct Totals {
+  struct Totals : InputTotals {
     Clock::time_point time;
-    std::uint64_t scans = 0, camera_infos = 0, poses = 0;
-    ScanCounters counters;
   };
 
   Totals totals() const;
-  std::string missingInput() const;
   void reportInputs(Status& status);
   void reportMap(Status& status);
   static void addUpdate(const MapUpdate& update, Status* status);

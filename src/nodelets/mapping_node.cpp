@@ -1,5 +1,6 @@
 // Stand-alone node around fiimap/MappingNodelet.
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "mapping");
+  // ROS ends cleanly on Ctrl-C alone; containers and service managers send this.
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   const ros::NodeHandle keep_ros_running;
   const bool provide_services = false;
   nodelet::Loader loader(provide_services);

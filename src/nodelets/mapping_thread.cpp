@@ -90,6 +90,7 @@ void MappingThread::countWaiting() { counters_.waiting = synchronizer_.waiting()
 void MappingThread::publishCounters() {
   countWaiting();
   counters_.refused_poses = synchronizer_.poses().refusedPoses();
+  counters_.refused_transforms = synchronizer_.poses().refusedTransforms();
   const std::lock_guard<std::mutex> lock(counters_mutex_);
   published_counters_ = counters_;
 }

@@ -30,7 +30,9 @@ constexpr std::array<Entry, kDropReasonCount> kEntries = {{
     {"bad_camera_info", "use the camera_info that belongs to this image; calibrate the camera"},
     {"bad_image", "check the driver: width, height, step and data must agree"},
     {"bad_encoding", "use a depth image of encoding 16UC1, mono16 or 32FC1"},
-    {"bad_cloud", "use a cloud with fields x, y and z of type float32"},
+    {"bad_cloud",
+     "use a cloud with one field each of x, y and z, of type float32 in the machine's byte order, "
+     "whose width, height, point_step, row_step and data agree"},
     {"overload",
      "raise resolution or pixel_step, lower max_depth or the sensor's rate, or build in release "
      "mode"},

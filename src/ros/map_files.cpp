@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <stdexcept>
 
@@ -15,11 +17,12 @@ void requireName(const std::string& name) {
   const bool allowed = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-' || c == '.';
   });
-  if (name.empty() || name.front() == '.' || !allowed) {
-    refuse("name '" + name +
-           "': must consist of letters, digits, '_', '-' and '.', and not begin "
-           "with '.'");
-  }
+  if (!name.empty() && name.front() != '.' && allowed) return;
+  std::string printable = name;  // a 0 would end the message
+  std::replace_if(
+      printable.begin(), printable.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+  refuse("name '" + printable +
+         "': must consist of letters, digits, '_', '-' and '.', and not begin with '.'");
 }
 
 /// Writes beside the file first, so that a crash or a full disk leaves no half file of that name.
@@ -34,8 +37,9 @@ void replaceFile(const std::string& directory, const std::string& name,
     refuse(file + ": " + error.what());
   }
   if (std::rename(partial.c_str(), file.c_str()) != 0) {
+    const std::string why = std::strerror(errno);
     std::remove(partial.c_str());
-    refuse(file + ": cannot be written");
+    refuse(file + ": cannot be written: " + why);
   }
 }
 

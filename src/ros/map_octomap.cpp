@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "complete_file.h"
 #include "fiimap/ros/map_files.h"
 
 namespace fiimap {
@@ -32,7 +33,8 @@ void writeOctomap(const Snapshot& snapshot, const std::string& file) {
     tree.setNodeValue(keyOf(v), tree.getClampingThresMaxLog(), lazy);
   }
   tree.updateInnerOccupancy();
-  if (!tree.writeBinary(file)) throw std::runtime_error("cannot be written");
+  // OctoMap's own file does not tell when the disk is full.
+  writeCompleteFile(file, [&tree](std::ostream& stream) { tree.writeBinary(stream); });
 }
 
 }  // namespace fiimap

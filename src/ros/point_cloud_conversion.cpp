@@ -19,10 +19,12 @@ bool machineIsBigEndian() {
 
 /// Byte of a coordinate within a point.
 std::size_t offsetOf(const std::string& name, const sensor_msgs::PointCloud2& cloud) {
-  const auto field =
-      std::find_if(cloud.fields.begin(), cloud.fields.end(),
-                   [&name](const sensor_msgs::PointField& f) { return f.name == name; });
+  const auto is_wanted = [&name](const sensor_msgs::PointField& f) { return f.name == name; };
+  const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(), is_wanted);
   if (field == cloud.fields.end()) refuse("the cloud has no field " + name);
+  if (std::any_of(field + 1, cloud.fields.end(), is_wanted)) {
+    refuse("the cloud has more than one field " + name);
+  }
   if (field->datatype != sensor_msgs::PointField::FLOAT32) {
     refuse("field " + name + " is not of type float32");
   }

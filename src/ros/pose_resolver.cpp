@@ -95,8 +95,9 @@ void PoseResolver::refuse(const Drop& why) {
   ++refused_poses_;
 }
 
-void PoseResolver::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
-  for (const auto& transform : transforms.transforms) tree_.add(transform, is_static);
+void PoseResolver::addTf(const tf2_msgs::TFMessage& transforms, bool is_static,
+                         const ros::Time& other) {
+  for (const auto& transform : transforms.transforms) tree_.add(transform, is_static, other);
 }
 
 void PoseResolver::clear() {

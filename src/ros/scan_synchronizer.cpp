@@ -86,7 +86,7 @@ void ScanSynchronizer::refuseDoubtfulPose() {
 }
 
 void ScanSynchronizer::addTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
-  poses_.addTf(transforms, is_static);
+  poses_.addTf(transforms, is_static, newest_scan_);
   emitReadyScans();
 }
 
@@ -98,10 +98,15 @@ void ScanSynchronizer::add(const sensor_msgs::CameraInfoConstPtr& info) {
 
 void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received) {
   const std_msgs::Header& header = headerOf(scan);
-  const ros::Time stamp =
-      header.stamp.isZero() ? ros::Time() : shifted(header.stamp, config_.time_offset);
-  if (stamp.isZero()) {
+  if (header.stamp.isZero()) {
     listener_->onDrop({DropReason::kZeroStamp, "a scan has no stamp"});
+    return;
+  }
+  const ros::Time stamp = shifted(header.stamp, config_.time_offset);
+  if (stamp.isZero()) {
+    listener_->onDrop(
+        {DropReason::kZeroStamp,
+         "a scan's stamp of " + std::to_string(header.stamp.toSec()) + " s is no time"});
     return;
   }
   add(WaitingScan{scan, plainFrame(header.frame_id), stamp, received});

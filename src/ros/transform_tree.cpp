@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "fiimap/ros/drop_reason.h"
@@ -24,41 +25,81 @@ std::string withoutEnd(std::string text) {
 
 TransformTree::TransformTree(double history) : history_(history), buffer_(ros::Duration(history)) {}
 
-void TransformTree::add(const geometry_msgs::TransformStamped& message, bool is_static) {
+void TransformTree::add(const geometry_msgs::TransformStamped& message, bool is_static,
+                        const ros::Time& other) {
   geometry_msgs::TransformStamped transform = message;
   transform.header.frame_id = plainFrame(message.header.frame_id);
   transform.child_frame_id = plainFrame(message.child_frame_id);
   // What tf2 would refuse with a message on the console.
   const std::string& child = transform.child_frame_id;
   const std::string& parent = transform.header.frame_id;
-  if (child.empty() || parent.empty() || child == parent) return;
+  if (child.empty() || parent.empty() || child == parent) {
+    ++refused_;
+    return;
+  }
   try {
     const Eigen::Quaterniond rotation(decodeTransform(transform.transform).linear());
     transform.transform.rotation.x = rotation.x();
     transform.transform.rotation.y = rotation.y();
     transform.transform.rotation.z = rotation.z();
     transform.transform.rotation.w = rotation.w();
-    if (is_static || remember(child, transform.header.stamp)) {
+    if (is_static) {
       buffer_.setTransform(transform, kAuthority, is_static);
+    } else {
+      addMoving(transform, other);
     }
   } catch (const std::exception&) {
-    // Not finite, not a rotation, or a stamp beyond ros::Time.
+    ++refused_;  // not finite, not a rotation, or a stamp beyond ros::Time
   }
 }
 
-bool TransformTree::remember(const std::string& child, const ros::Time& stamp) {
-  std::set<ros::Time>& stamps = stamps_[child];
-  const bool too_old = !stamps.empty() && secondsBetween(stamp, *stamps.rbegin()) > history_;
-  if (too_old || !stamps.insert(stamp).second) return false;
+void TransformTree::addMoving(const geometry_msgs::TransformStamped& transform,
+                              const ros::Time& other) {
+  const ros::Time& stamp = transform.header.stamp;
+  Link& link = links_[transform.child_frame_id];
+  const StampVerdict verdict = link.guard.judge(stamp, std::max(newest_, other));
+  const auto doubtful = std::exchange(link.doubtful, std::nullopt);
+  switch (verdict) {
+    case StampVerdict::kDoubtful:
+      if (doubtful) ++refused_;
+      link.doubtful = transform;
+      return;
+    case StampVerdict::kJumpBack:
+      link.guard.clear();
+      // Beyond the history tf2 would refuse it: time began again, or what came before was wrong.
+      if (!link.stamps.empty() && secondsBetween(stamp, *link.stamps.rbegin()) > history_) clear();
+      if (doubtful) addMoving(*doubtful, other);
+      addMoving(transform, other);
+      return;
+    case StampVerdict::kLeap:
+      if (doubtful) insert(*doubtful);
+      break;
+    case StampVerdict::kGood:
+      if (doubtful) ++refused_;
+  }
+  insert(transform);
+}
+
+void TransformTree::insert(const geometry_msgs::TransformStamped& transform) {
+  const ros::Time& stamp = transform.header.stamp;
+  std::set<ros::Time>& stamps = links_[transform.child_frame_id].stamps;
+  if (!stamps.empty() && secondsBetween(stamp, *stamps.rbegin()) > history_) {
+    ++refused_;
+    return;
+  }
+  if (!stamps.insert(stamp).second) return;
   while (secondsBetween(*stamps.begin(), *stamps.rbegin()) > history_) {
     stamps.erase(stamps.begin());
   }
-  return true;
+  newest_ = std::max(newest_, stamp);
+  const bool is_static = false;
+  buffer_.setTransform(transform, kAuthority, is_static);
 }
 
 void TransformTree::clear() {
   buffer_.clear();
-  stamps_.clear();
+  links_.clear();
+  newest_ = ros::Time();
 }
 
 TransformAtStamp TransformTree::at(const std::string& target, const std::string& source,
@@ -105,9 +146,9 @@ double TransformTree::largestGap(const std::string& target, const std::string& s
 
 double TransformTree::gapOfLink(const std::string& parent, const std::string& child,
                                 const ros::Time& stamp) const {
-  const auto link = stamps_.find(child);
-  if (link == stamps_.end()) return 0.0;
-  const std::set<ros::Time>& stamps = link->second;
+  const auto link = links_.find(child);
+  if (link == links_.end()) return 0.0;
+  const std::set<ros::Time>& stamps = link->second.stamps;
   const auto after = stamps.lower_bound(stamp);
   if (after == stamps.end() || after == stamps.begin() || *after == stamp) return 0.0;
   const auto before = std::prev(after);

@@ -26,6 +26,11 @@ void ScanEvaluator::play(const EvaluationInput& input) {
   progress_ = &progress;
   player.play(this, &counters_);
   progress_ = nullptr;
+  if (!counters_.conserved()) {
+    throw std::logic_error("scans were lost: " + std::to_string(counters_.received) +
+                           " received, " + std::to_string(counters_.integrated) + " integrated, " +
+                           std::to_string(counters_.dropped()) + " dropped");
+  }
   if (counters_.integrated > 0) return;
   progress.end();
   throw std::runtime_error("no scan could be integrated: " + (counters_.received == 0

@@ -96,6 +96,61 @@ TEST_F(TransformTreeTest, LeavesOutBadTransforms) {
   EXPECT_NEAR(lookup(0.02).T_target_source.translation().x(), 3.5, kTolerance);
 }
 
+TEST_F(TransformTreeTest, CountsWhatItLeavesOutButNotRepetitions) {
+  addMoving(0.0, 1.0);
+  addMoving(0.0, 1.0);
+  EXPECT_EQ(tree_.refused(), 0u);
+  addMoving(0.01, std::numeric_limits<double>::quiet_NaN());
+  addMoving(0.01, 1.0, "", "body");
+  EXPECT_EQ(tree_.refused(), 2u);
+}
+
+TEST_F(TransformTreeTest, OneWrongStampCostsOneTransform) {
+  addStatic(0.5);
+  for (const double wrong : {100.0, -100.0}) {
+    tree_.clear();
+    for (int i = 0; i <= 10; ++i) {
+      addMoving(0.05 * i, 0.05 * i);
+      if (i == 5) addMoving(wrong, 7.0);
+    }
+    ASSERT_EQ(lookup(0.47).lookup, PoseLookup::kFound) << lookup(0.47).why;
+    EXPECT_NEAR(lookup(0.47).T_target_source.translation().x(), 0.97, kTolerance);
+    EXPECT_NEAR(lookup(0.27).T_target_source.translation().x(), 0.77, kTolerance);
+  }
+  EXPECT_EQ(tree_.refused(), 2u);
+}
+
+TEST_F(TransformTreeTest, ALinkWhoseFirstStampWasWrongRecovers) {
+  addStatic(0.5);
+  addMoving(100.0, 7.0);
+  for (int i = 0; i <= 3; ++i) addMoving(0.05 * i, 1.0);
+  EXPECT_EQ(lookup(0.12).lookup, PoseLookup::kFound) << lookup(0.12).why;
+}
+
+TEST_F(TransformTreeTest, TimeMayGoOnAfterAPause) {
+  addStatic(0.5);
+  addMoving(0.0, 1.0);
+  addMoving(60.0, 1.0);
+  EXPECT_EQ(lookup(60.0).lookup, PoseLookup::kNotYet);
+  addMoving(60.05, 1.0);
+  EXPECT_EQ(lookup(60.02).lookup, PoseLookup::kFound) << lookup(60.02).why;
+  EXPECT_EQ(tree_.refused(), 0u);
+}
+
+TEST_F(TransformTreeTest, StampsNearThoseOfOtherMessagesAreNotAhead) {
+  addStatic(0.5);
+  addMoving(0.0, 1.0);
+  tree_.add(transformAt(2.0, 1.0), false, at(2.1));
+  EXPECT_EQ(lookup(2.0).lookup, PoseLookup::kFound) << lookup(2.0).why;
+}
+
+TEST_F(TransformTreeTest, ASecondPublisherThatIsLateIsNoNewTime) {
+  addStatic(0.5);
+  for (int i = 0; i <= 20; ++i) addMoving(4.0 + 0.05 * i, 1.0);
+  for (int i = 0; i <= 5; ++i) addMoving(2.0 + 0.05 * i, 1.0);
+  EXPECT_EQ(lookup(4.42).lookup, PoseLookup::kFound) << lookup(4.42).why;
+}
+
 TEST_F(TransformTreeTest, ClearKeepsStaticLinks) {
   addStatic(0.5);
   addMoving(100.0, 1.0);

@@ -1,7 +1,5 @@
 #!/usr/bin/python3
 """Subscribers in other processes take nothing from the readers in the nodelet manager."""
-import xmlrpc.client
-
 import rosbag
 import rospy
 import rostest
@@ -13,7 +11,7 @@ from visualization_msgs.msg import Marker
 import make_bag_variants
 from fiimap.msg import MapInfo, Statistics
 from manager_support import ManagerTest
-from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, program, wait_for
+from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, program, topics_between, wait_for
 
 TOPICS = {
     '/map/occupied': PointCloud2, '/map/inflated': PointCloud2, '/map/statistics': Statistics,
@@ -40,14 +38,8 @@ class OtherProcessesTest(ManagerTest):
         on all."""
         file = self.directory / 'record.bag'
         recorder = self.start(program('rosbag', 'record'), '-O', file, '__name:=recorder', *TOPICS)
-        manager = xmlrpc.client.ServerProxy(rospy.get_master().lookupNode('/manager')[2])
-
-        def recorded_topics():
-            _, _, connections = manager.getBusInfo(rospy.get_name())
-            return {topic for _, destination, direction, _, topic, *_ in connections
-                    if (destination, direction) == ('/recorder', 'o')}
-        wait_for(lambda: set(TOPICS) <= recorded_topics(),
-                 lambda: f'the recorder, which has {recorded_topics()}')
+        wait_for(lambda: set(TOPICS) <= topics_between('/manager', '/recorder'),
+                 lambda: f'the recorder, which has {topics_between("/manager", "/recorder")}')
         return recorder, file
 
     def write_bag(self):

@@ -2,11 +2,10 @@
 import json
 import os
 import pathlib
-import signal
-import subprocess
 import tempfile
 import time
 import unittest
+import xmlrpc.client
 
 import roslib.packages
 import rosbag
@@ -16,14 +15,13 @@ from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import PointCloud2
 
 from fiimap.msg import Statistics
+from process import PATIENCE, Process
 from voxels import voxels_of_cloud, voxels_of_pcd
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path('fiimap'))
 DATA = PACKAGE / 'data'
 FLIGHT_BAG = DATA / 'synth_flight_excerpt.bag'
 
-# Nothing may take this long, also on a slow machine with other work; no test measures time.
-PATIENCE = 90.0  # s
 POLL = 0.02  # s
 
 # Recordings must arrive whole, however slow the machine: no scan may be too late.
@@ -82,40 +80,12 @@ def wait_for(condition, what):
     raise AssertionError(f'waited in vain for {what() if callable(what) else what}')
 
 
-class Process:
-    """A running program whose output is kept."""
-
-    def __init__(self, command, log, environment=None):
-        self.name = ' '.join(str(word) for word in command)
-        self._log = log
-        with open(log, 'wb') as output:
-            self._popen = subprocess.Popen([str(word) for word in command], stdout=output,
-                                           stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                           env={**os.environ, **(environment or {})})
-
-    def is_running(self):
-        return self._popen.poll() is None
-
-    def output(self):
-        return self._log.read_text(errors='replace')
-
-    def wait(self):
-        """Exit code; of a process that does not end: an assertion."""
-        try:
-            return self._popen.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
-            self.kill()
-            raise AssertionError(f'{self.name} does not end')
-
-    def interrupt(self):
-        """What Ctrl-C does. Returns the exit code."""
-        if self.is_running():
-            self._popen.send_signal(signal.SIGINT)
-        return self.wait()
-
-    def kill(self):
-        self._popen.kill()
-        self._popen.wait()
+def topics_between(publisher, subscriber):
+    """Topics on which one node sends to another, both by name."""
+    node = xmlrpc.client.ServerProxy(rospy.get_master().lookupNode(publisher)[2])
+    _, _, connections = node.getBusInfo(rospy.get_name())
+    return {topic for _, destination, direction, _, topic, *_ in connections
+            if (destination, direction) == (subscriber, 'o')}
 
 
 class Map:
@@ -125,6 +95,7 @@ class Map:
         self.name = name
         self.statistics = []
         self.diagnostics = {}  # newest status by name of the task
+        self.input_statuses = []  # all of the task `inputs`
         self.clouds = {}  # newest by topic
         self._subscribers = [
             rospy.Subscriber(f'/{name}/statistics', Statistics, self.statistics.append),
@@ -148,6 +119,8 @@ class Map:
             node, task = status.name.split(': ')
             if node == self.name:
                 self.diagnostics[task] = status
+                if task == 'inputs' and status.values:  # the first one says "starting up" alone
+                    self.input_statuses.append(status)
 
     def newest(self):
         return self.statistics[-1] if self.statistics else Statistics()
@@ -219,11 +192,21 @@ class MapTest(unittest.TestCase):
         for listener in self.maps:
             for statistics in listener.statistics:
                 self.assert_conserved(statistics)
+            for status in listener.input_statuses:
+                self.assert_conserved_in_diagnostics(status)
 
     def assert_conserved(self, statistics):
         s = statistics
         self.assertEqual(s.received, s.integrated + s.dropped + s.waiting, s)
         self.assertEqual(s.dropped, sum(drop.count for drop in s.drops), s)
+
+    def assert_conserved_in_diagnostics(self, status):
+        values = {value.key: value.value for value in status.values}
+        received, integrated, waiting, dropped = (
+            int(values[f'scans {name}']) for name in ('received', 'integrated', 'waiting', 'dropped'))
+        self.assertEqual(received, integrated + waiting + dropped, status)
+        self.assertEqual(dropped, sum(int(value) for key, value in values.items()
+                                      if key.startswith('dropped: ')), status)
 
     def start(self, *command, environment=None):
         log = self.directory / f'process_{len(self.processes)}.log'
@@ -273,7 +256,9 @@ class MapTest(unittest.TestCase):
             command += ['--set', f'{name}=' + ' '.join(str(word) for word in words)]
         evaluation = self.start(*command)
         self.assertEqual(evaluation.wait(), 0, evaluation.output())
-        return json.loads(report.read_text())
+        figures = json.loads(report.read_text())
+        self.assertEqual(figures['scans'], figures['integrated'] + sum(figures['dropped'].values()))
+        return figures
 
     def assert_clouds_equal_offline(self, listener, resolution):
         """The node's newest clouds show the voxels of the offline tool's map, no more, no less."""

@@ -43,7 +43,7 @@ class Vehicle:
         for publisher in (self._clock, self._image, self._info, self._odometry, self._static_tf):
             publisher.unregister()
 
-    def fly(self, image=keep, info=keep, odometry=keep):
+    def fly(self, image=keep, info=keep, odometry=keep, clock=keep):
         """Sends an image, its camera_info and the poses around it.
 
         Each argument changes a message before it is sent, or returns None to hold it back."""
@@ -51,7 +51,7 @@ class Vehicle:
             self._send(self._odometry, self._pose(self.time + i * IMAGE_PERIOD / POSES_PER_IMAGE),
                        odometry)
         self.time += IMAGE_PERIOD
-        self._clock.publish(Clock(rospy.Time(self.time)))
+        self._send(self._clock, Clock(rospy.Time(self.time)), clock)
         # The stamp lies between two poses.
         stamp = rospy.Time(self.time - 0.45 * IMAGE_PERIOD / POSES_PER_IMAGE)
         self._send(self._info, self._camera_info(stamp), info)

@@ -7,7 +7,7 @@ namespace fiimap {
 
 /// Why a scan did not become part of the map.
 enum class DropReason {
-  kZeroStamp,      ///< the message has no stamp
+  kZeroStamp,      ///< the message has no stamp, or one that is no time
   kStaleStamp,     ///< not newer than the scan before, or alone far from all others
   kTimeJump,       ///< waited while the stamps jumped back
   kQueueFull,      ///< displaced by newer scans while it waited for its pose
@@ -21,7 +21,7 @@ enum class DropReason {
   kBadCameraInfo,  ///< intrinsics are zero or of another image size
   kBadImage,       ///< sizes in the message contradict each other
   kBadEncoding,    ///< not a depth image's encoding
-  kBadCloud,       ///< no x y z of type float32, or sizes contradict each other
+  kBadCloud,       ///< not one each of x y z of type float32, or sizes contradict each other
   kOverload,       ///< newer scans came before the map had time for it
 };
 constexpr int kDropReasonCount = static_cast<int>(DropReason::kOverload) + 1;

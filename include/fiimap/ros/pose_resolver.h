@@ -44,7 +44,9 @@ class PoseResolver {
   void add(const nav_msgs::Odometry& odometry);
   void add(const geometry_msgs::PoseStamped& pose);
   void add(const geometry_msgs::TransformStamped& transform);
-  void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
+  /// \param other newest stamp of other messages, see TransformTree::add().
+  void addTf(const tf2_msgs::TFMessage& transforms, bool is_static,
+             const ros::Time& other = ros::Time());
   /// Counts a pose message that is not to be used.
   void refuse(const Drop& why);
   /// Forgets poses and moving transforms.
@@ -54,6 +56,8 @@ class PoseResolver {
   ros::Time newestPose() const { return history_.newest(); }
   /// Number of pose messages (not TF) that could not be used.
   std::uint64_t refusedPoses() const { return refused_poses_; }
+  /// Number of transforms of TF that could not be used.
+  std::uint64_t refusedTransforms() const { return tree_.refused(); }
 
   ResolvedPose at(const std::string& sensor_frame, const ros::Time& stamp) const;
 

@@ -15,7 +15,8 @@ struct ScanCounters {
   std::uint64_t integrated = 0;
   std::uint64_t waiting = 0;  ///< counted where they wait, so that a lost scan shows
   std::array<std::uint64_t, kDropReasonCount> dropped_by_reason{};
-  std::uint64_t refused_poses = 0;  ///< pose messages that could not be used; no scans
+  std::uint64_t refused_poses = 0;       ///< pose messages that could not be used; no scans
+  std::uint64_t refused_transforms = 0;  ///< of TF, likewise
   /// Poses, transforms and camera infos that gave way to newer ones in the queue.
   std::uint64_t displaced_inputs = 0;
   std::string last_drop;  ///< text of the newest drop; empty when there was none
@@ -25,6 +26,8 @@ struct ScanCounters {
     return dropped_by_reason[static_cast<std::size_t>(reason)];
   }
   std::uint64_t dropped() const;
+  /// Whether every scan that was received is accounted for.
+  bool conserved() const { return received == integrated + dropped() + waiting; }
 };
 
 }  // namespace fiimap
