@@ -225,5 +225,29 @@ TEST(RayCasterTest, ASensorFarFromTheBoxIsNoTrouble) {
   EXPECT_EQ(cast.run().hits, 0u);
 }
 
+TEST(RayCasterTest, RaysFromAboveOrBelowFreeNothingBeyondTheBox) {
+  // A fan of rays that are cut one after the other, from a sensor beyond the box's top or floor.
+  constexpr int kHeight = 20;  // of 64 bits in a word
+  const VoxelBox box{{0, 0, 0}, {20, 3, kHeight}};
+  for (const double sensor_z : {45.5, -25.5}) {
+    RayCaster caster{VoxelLattice(kResolution), 12.0};
+    RangeData scan;
+    scan.origin = Eigen::Vector3d(0.5, 1.5, sensor_z) * kResolution;
+    for (int z = 0; z < kHeight; ++z) {
+      const Eigen::Vector3d end = Eigen::Vector3d(19.5, 1.5, z + 0.5) * kResolution;
+      scan.returns.push_back((end - scan.origin).cast<float>());
+    }
+    ScanMask mask;
+    EXPECT_EQ(caster.cast(scan, box, &mask).hits, kHeight);
+    int freed = 0;
+    for (int x = 0; x < 20; ++x) {
+      const std::uint64_t word = mask.column(ScanMask::kFree, x, 1)[0];
+      EXPECT_EQ(word >> kHeight, 0u) << x << ", sensor at " << sensor_z;
+      freed += word != 0 ? 1 : 0;
+    }
+    EXPECT_GT(freed, 0);
+  }
+}
+
 }  // namespace
 }  // namespace fiimap
