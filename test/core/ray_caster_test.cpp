@@ -225,6 +225,21 @@ TEST(RayCasterTest, ASensorFarFromTheBoxIsNoTrouble) {
   EXPECT_EQ(cast.run().hits, 0u);
 }
 
+TEST(RayCasterTest, BetweenTheRaysThatPassCutRaysFreeNothing) {
+  // A wall from floor to top: rays to its middle are the shortest and end first.
+  const VoxelBox box{{0, 0, 0}, {12, 3, 41}};
+  Cast cast(box, 5.0);
+  cast.from({0.5, 1.5, 20.5});
+  for (int z = 0; z < 41; ++z) cast.toReturn({11.5, 1.5, z + 0.5});
+  cast.run();
+  const test::VoxelSet free = cast.free();
+  // The middle rays are 11 long and end at x = 6.5; the outermost, 22.8 long, at x = 9.1.
+  EXPECT_EQ(free.count({5, 1, 20}), 1u);
+  for (int z = 16; z <= 24; ++z) EXPECT_EQ(free.count({8, 1, z}), 0u) << z;
+  EXPECT_EQ(free.count({8, 1, 6}), 1u);
+  EXPECT_EQ(free.count({8, 1, 34}), 1u);
+}
+
 TEST(RayCasterTest, RaysFromAboveOrBelowFreeNothingBeyondTheBox) {
   // A fan of rays that are cut one after the other, from a sensor beyond the box's top or floor.
   constexpr int kHeight = 20;  // of 64 bits in a word

@@ -36,6 +36,7 @@ MapperConfig takeConfig(const ElementDefinition& element, ByteSource* bytes) {
   config.local_update_range_z = voxels(70);
   config.slide_distance = bytes->real(0.0, config.mapSize().minCoeff() / 2.0);
   config.ray_end_cut = bytes->integer(0, 4) * 0.5;
+  config.min_hit_cover = 0.0;  // the model has no cover
   config.min_depth = config.min_ray_length = 0.1;
   config.max_ray_length = bytes->real(0.5, 10.0);
   config.max_depth = 100.0;

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Changes the core's key lines one at a time and says which changes the core's tests notice.
 
-  test/mutants/run.py FOLDER [WORD]
+  test/mutants/run.py FOLDER [WORD...]
 
-FOLDER receives a copy of the core and its tests, and the build. WORD: only mutants whose lines hold
-it. Exits with 1 when a mutant survives that mutants.txt does not explain, one that it calls
+FOLDER receives a copy of the core and its tests, and the build. WORD: only mutants whose lines or
+file hold one of them. Exits with 1 when a mutant survives that mutants.txt does not explain, one that it calls
 unnoticeable is noticed, or one does not fit the code or compile.
 """
 import os
@@ -96,13 +96,14 @@ def judge(mutant, folder, build):
 
 def main():
     folder = pathlib.Path(sys.argv[1]).resolve()
-    word = sys.argv[2] if len(sys.argv) > 2 else ''
+    words = sys.argv[2:] or ['']
     build = prepare(folder)
     if first_failure(build):
         sys.exit('the tests fail without a mutant')
     counts, wrong = {}, 0
     for mutant in read_mutants():
-        if word not in mutant.file + mutant.original + mutant.changed:
+        text = mutant.file + mutant.original + mutant.changed
+        if not any(word in text for word in words):
             continue
         start = time.monotonic()
         verdict = judge(mutant, folder, build)
