@@ -311,17 +311,17 @@ TEST(MapperConfigTest, TheUpdateRangeCountsAsFarAsItLiesInTheWindow) {
 }
 
 TEST(MapperConfigTest, WithoutAMemoryLimitTheMachinesMemoryIsOne) {
-  // Columns of one voxel take 64: 400 GB, beyond what machines have.
-  const auto enlarge = [](MapperConfig* c) {
+  // Columns of one voxel take 64: 1000 GB, beyond what machines have.
+  const auto enlarge = [](MapperConfig* c, double size) {
     c->resolution = 0.01, c->inflation_radius = 0.2;
-    c->map_size_x = c->map_size_y = 600.0, c->map_size_z = 0.01;
+    c->map_size_x = c->map_size_y = size, c->map_size_z = 0.01;
     c->slide_distance = 0.0;
     c->local_update_range_x = c->local_update_range_y = 10000.0;
     c->memory_limit = 1e6;
   };
-  expectRefused([&](MapperConfig* c) { enlarge(c), c->memory_limit = 0.0; },
+  expectRefused([&](MapperConfig* c) { enlarge(c, 999.0), c->memory_limit = 0.0; },
                 {"needs", "the machine's memory"});
-  expectRefused(enlarge, {"local_update_range", "2^31"});
+  expectRefused([&](MapperConfig* c) { enlarge(c, 600.0); }, {"local_update_range", "2^31"});
 }
 
 }  // namespace

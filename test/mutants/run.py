@@ -3,9 +3,9 @@
 
   test/mutants/run.py FOLDER [WORD...]
 
-FOLDER receives a copy of the core and its tests, and the build. WORD: only mutants whose lines or
-file hold one of them. Exits with 1 when a mutant survives that mutants.txt does not explain, one that it calls
-unnoticeable is noticed, or one does not fit the code or compile.
+FOLDER receives a copy of the core and its tests, and the build. WORD: only mutants whose lines or file
+hold one of them. Exits with 1 when a mutant survives that mutants.txt does not explain, one that it
+calls unnoticeable is noticed, or one does not fit the code or compile.
 """
 import os
 import pathlib
