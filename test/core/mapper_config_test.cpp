@@ -151,7 +151,7 @@ TEST(MapperParametersTest, RangesAreEnforcedAsDescribed) {
     }
     EXPECT_EQ(parameter.get(), in_range);
   }
-  EXPECT_EQ(numeric, 28) << "numeric parameters whose description names no range";
+  EXPECT_EQ(numeric, 29) << "numeric parameters whose description names no range";
 }
 
 TEST(MapperParametersTest, RefuseTheWrongType) {
@@ -188,7 +188,7 @@ TEST(MapperConfigTest, ValidateRefusesNumbersThatAreNotFinite) {
       EXPECT_TRUE(contains(refusal(config), field.name)) << field.name << " = " << bad;
     }
   }
-  EXPECT_EQ(numbers, 26);
+  EXPECT_EQ(numbers, 27);
 }
 
 TEST(MapperConfigTest, ValidateRefusesNumbersOutOfRange) {
