@@ -39,6 +39,7 @@ struct MapperConfig {
   double local_update_range_x = 16.0;
   double local_update_range_y = 16.0;
   double local_update_range_z = 6.0;
+  double memory_limit = 0.0;
 
   double depth_scale = 0.001;
   double min_depth = 0.3;

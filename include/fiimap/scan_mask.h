@@ -70,8 +70,18 @@ class ScanMask {
   std::size_t memoryBytes() const {
     return kLayerCount * bits_[kFree].size() * sizeof(std::uint64_t);
   }
+  /// Words of a layer over a box of this size (voxels); at most 2^31 - 1 can be addressed.
+  static std::int64_t words(const VoxelIndex& size) {
+    return VoxelBox{VoxelIndex::Zero(), {size.x(), size.y(), wordsOf(size.z())}}.volume();
+  }
+  /// Memory of a mask over a box of this size (voxels), bytes.
+  static std::int64_t memoryBytes(const VoxelIndex& size) {
+    return words(size) * (kLayerCount * sizeof(std::uint64_t) + sizeof(std::uint8_t));
+  }
 
  private:
+  static int wordsOf(int height) { return (height + kWordBits - 1) / kWordBits; }
+
   VoxelBox box_;
   VoxelIndex size_ = VoxelIndex::Zero();
   VoxelBox touched_;

@@ -151,7 +151,9 @@ class SlidingGrid {
   /// Memory held now, bytes.
   std::size_t memoryBytes() const;
   /// Memory held when every voxel of the window has been seen, bytes.
-  std::size_t worstCaseMemoryBytes() const;
+  std::size_t worstCaseMemoryBytes() const { return worstCaseMemoryBytes(size_); }
+  /// The same of a grid with a window of this size, voxels.
+  static std::size_t worstCaseMemoryBytes(const VoxelIndex& size);
 
  private:
   struct Slot {
@@ -174,8 +176,10 @@ class SlidingGrid {
                  std::vector<VoxelIndex>* forgotten);
   void listObstacles(std::uint64_t word, int w, int x, int y,
                      std::vector<VoxelIndex>* obstacles) const;
-  std::size_t tileBytes() const;
-  std::size_t logOddsBytes() const;
+  std::size_t tileBytes() const { return tileBytes(layout_); }
+  std::size_t logOddsBytes() const { return logOddsBytes(layout_); }
+  static std::size_t tileBytes(const ColumnLayout& layout);
+  static std::size_t logOddsBytes(const ColumnLayout& layout);
 
   VoxelIndex size_;
   VoxelBox window_;

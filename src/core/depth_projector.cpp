@@ -143,6 +143,11 @@ void DepthProjector::addOther(float depth, const Eigen::Vector3f& ray, RangeData
                               ReadingCount* count) const {
   ReadingPolicy policy = config_.beyond_max_depth;
   const float ray_length = ray.norm();
+  if (!std::isfinite(ray_length)) {
+    // A pixel so far from the principal point in focal lengths looks nowhere.
+    ++count->invalid;
+    return;
+  }
   if (std::isnan(depth)) {
     ++count->invalid;
     policy = config_.invalid_depth;

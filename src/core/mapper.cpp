@@ -46,7 +46,7 @@ void requireValid(const ScanPose& pose, const VoxelLattice& lattice) {
     throw std::invalid_argument("pose: position is not finite or too far from the origin");
   }
   const Eigen::Matrix3d R = pose.T_W_S.linear();
-  if (!R.allFinite() || !R.isUnitary(kRotationTolerance)) {
+  if (!R.allFinite() || !R.isUnitary(kRotationTolerance) || R.determinant() < 0.0) {
     throw std::invalid_argument("pose: orientation is not a rotation");
   }
 }

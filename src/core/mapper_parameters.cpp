@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fiimap/parameters.h"
+#include "memory_need.h"
 
 namespace fiimap {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kMinRange = 0.0, kMaxRange = 1000.0;           // m
 constexpr double kMaxRadius = 100.0;                            // m
 constexpr int kMaxReach = 64;                                   // voxels
 constexpr double kMaxWindowVoxels = 1e10;
+constexpr double kMaxMemory = 1e6;  // MB
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -75,6 +77,9 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
                       "m", "full extent of the box around the vehicle that scans may change"),
       numberParameter("local_update_range_z", &c->local_update_range_z, kMinResolution, kMaxMapSize,
                       "m", "full extent of the box around the vehicle that scans may change"),
+      numberParameter("memory_limit", &c->memory_limit, 0.0, kMaxMemory, "MB",
+                      "a map that may need more when all is seen is refused at start; 0: the "
+                      "machine's memory"),
 
       numberParameter("depth_scale", &c->depth_scale, 1e-6, 1.0, "m per unit",
                       "metres per unit of a 16-bit depth image"),
@@ -157,6 +162,7 @@ void MapperConfig::validate() const {
     refuse("parameters map_size_x/y/z and resolution: the window would have " +
            std::to_string(voxels) + " voxels, must be at most " + std::to_string(kMaxWindowVoxels));
   }
+  requireMemory(*this);
 }
 
 }  // namespace fiimap

@@ -17,7 +17,7 @@ void ScanMask::begin(const VoxelBox& box) {
   box_ = box;
   size_ = box.empty() ? VoxelIndex::Zero() : box.size();
   touched_ = {size_, VoxelIndex::Zero()};
-  words_ = (size_.z() + kWordBits - 1) / kWordBits;
+  words_ = wordsOf(size_.z());
   const std::size_t words = static_cast<std::size_t>(size_.x()) * size_.y() * words_;
   for (auto& layer : bits_) {
     if (layer.size() < words) layer.resize(words, 0);

@@ -232,12 +232,12 @@ void SlidingGrid::drop(int slot_index) {
   live_.pop_back();
 }
 
-std::size_t SlidingGrid::logOddsBytes() const {
-  return static_cast<std::size_t>(kTileColumns) * layout_.bits();
+std::size_t SlidingGrid::logOddsBytes(const ColumnLayout& layout) {
+  return static_cast<std::size_t>(kTileColumns) * layout.bits();
 }
 
-std::size_t SlidingGrid::tileBytes() const {
-  return tileWords(layout_) * sizeof(std::uint64_t) + logOddsBytes();
+std::size_t SlidingGrid::tileBytes(const ColumnLayout& layout) {
+  return tileWords(layout) * sizeof(std::uint64_t) + logOddsBytes(layout);
 }
 
 std::size_t SlidingGrid::memoryBytes() const {
@@ -245,10 +245,11 @@ std::size_t SlidingGrid::memoryBytes() const {
          spare_log_odds_.size() * logOddsBytes();
 }
 
-std::size_t SlidingGrid::worstCaseMemoryBytes() const {
-  const std::size_t tiles_x = TileRing::tilesAcross(size_.x());
-  const std::size_t tiles_y = TileRing::tilesAcross(size_.y());
-  return slots_.size() * sizeof(Slot) + tiles_x * tiles_y * tileBytes();
+std::size_t SlidingGrid::worstCaseMemoryBytes(const VoxelIndex& size) {
+  const std::size_t tiles_x = TileRing::tilesAcross(size.x());
+  const std::size_t tiles_y = TileRing::tilesAcross(size.y());
+  const std::size_t slots = TileRing(size.x(), size.y()).slots();
+  return slots * sizeof(Slot) + tiles_x * tiles_y * tileBytes(ColumnLayout(size.z()));
 }
 
 }  // namespace fiimap

@@ -3,12 +3,14 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "bag_check.h"
 #include "fiimap/ros/parameter_sources.h"
 
 namespace fiimap {
 
 EvaluationInput::EvaluationInput(const InputOptions& options) : options_(options) {
   const ParameterMap given = readSettings();
+  requireSoundBag(options.bag);
   try {
     bag_.open(options.bag, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {

@@ -47,6 +47,7 @@ std::vector<FieldOfParameter> fields() {
       number("local_update_range_x", &C::local_update_range_x, 11.0),
       number("local_update_range_y", &C::local_update_range_y, 12.0),
       number("local_update_range_z", &C::local_update_range_z, 4.0),
+      number("memory_limit", &C::memory_limit, 4096.0),
       number("depth_scale", &C::depth_scale, 0.0002),
       number("min_depth", &C::min_depth, 0.45),
       number("max_depth", &C::max_depth, 6.5),
@@ -150,7 +151,7 @@ TEST(MapperParametersTest, RangesAreEnforcedAsDescribed) {
     }
     EXPECT_EQ(parameter.get(), in_range);
   }
-  EXPECT_EQ(numeric, 28) << "numeric parameters whose description names no range";
+  EXPECT_EQ(numeric, 29) << "numeric parameters whose description names no range";
 }
 
 TEST(MapperParametersTest, RefuseTheWrongType) {
@@ -187,7 +188,7 @@ TEST(MapperConfigTest, ValidateRefusesNumbersThatAreNotFinite) {
       EXPECT_TRUE(contains(refusal(config), field.name)) << field.name << " = " << bad;
     }
   }
-  EXPECT_EQ(numbers, 26);
+  EXPECT_EQ(numbers, 27);
 }
 
 TEST(MapperConfigTest, ValidateRefusesNumbersOutOfRange) {
@@ -280,9 +281,47 @@ TEST(MapperConfigTest, RadiusIsAtMost64Voxels) {
 }
 
 TEST(MapperConfigTest, WindowIsAtMostTenThousandMillionVoxels) {
-  expectAccepted([](MapperConfig* c) { c->map_size_x = c->map_size_y = 1000.0; });
+  expectAccepted([](MapperConfig* c) {
+    c->map_size_x = c->map_size_y = 1000.0, c->memory_limit = 20000.0;  // MB
+  });
   expectRefused([](MapperConfig* c) { c->map_size_x = c->map_size_y = 10000.0; },
                 {"map_size", "resolution"});
+}
+
+TEST(MapperConfigTest, AMapThatNeedsMoreThanTheMemoryLimitIsRefusedWithBothAmounts) {
+  // 32 x 32 tiles at most, 1024 columns each, 64 bits in three planes and 64 bytes: 92 MB.
+  expectAccepted([](MapperConfig* c) { c->memory_limit = 100.0; });
+  expectRefused([](MapperConfig* c) { c->memory_limit = 90.0; },
+                {"map_size", "resolution", "needs 9", "90 MB are available", "memory_limit"});
+}
+
+TEST(MapperConfigTest, TheUpdateRangeCountsAsFarAsItLiesInTheWindow) {
+  const auto update = [](double range) {
+    return [range](MapperConfig* c) {
+      c->map_size_x = c->map_size_y = 500.0;  // 2.3 GB
+      c->local_update_range_x = c->local_update_range_y = range;
+      c->memory_limit = 2500.0;
+    };
+  };
+  expectAccepted(update(10.0));
+  expectRefused(update(500.0), {"local_update_range", "2500 MB are available"});
+  expectAccepted([](MapperConfig* c) {
+    c->local_update_range_x = c->local_update_range_y = 10000.0, c->memory_limit = 150.0;
+  });
+}
+
+TEST(MapperConfigTest, WithoutAMemoryLimitTheMachinesMemoryIsOne) {
+  // Columns of one voxel take 64: 1000 GB, beyond what machines have.
+  const auto enlarge = [](MapperConfig* c, double size) {
+    c->resolution = 0.01, c->inflation_radius = 0.2;
+    c->map_size_x = c->map_size_y = size, c->map_size_z = 0.01;
+    c->slide_distance = 0.0;
+    c->local_update_range_x = c->local_update_range_y = 10000.0;
+    c->memory_limit = 1e6;
+  };
+  expectRefused([&](MapperConfig* c) { enlarge(c, 999.0), c->memory_limit = 0.0; },
+                {"needs", "the machine's memory"});
+  expectRefused([&](MapperConfig* c) { enlarge(c, 600.0); }, {"local_update_range", "2^31"});
 }
 
 }  // namespace

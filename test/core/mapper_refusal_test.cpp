@@ -41,7 +41,13 @@ std::vector<ScanPose> badPoses() {
     }
     poses.push_back(poseAt({0.0, 0.0, 0.0}));
     poses.back().T_W_S.linear()(axis, 1) = kNan;
+    poses.push_back(poseAt({0.0, 0.0, 0.0}));
+    poses.back().T_W_S.linear()(axis, axis) = -1.0;  // a mirror
+    poses.push_back(poseAt({0.0, 0.0, 0.0}));
+    poses.back().T_W_S.linear()(axis, axis) = 1.01;  // stretches
   }
+  poses.push_back(poseAt({0.0, 0.0, 0.0}));
+  poses.back().T_W_S.linear().setZero();
   return poses;
 }
 

@@ -68,6 +68,18 @@ TEST(MapperTest, WindowFollowsPerAxisBeyondTheSlideDistance) {
   }
 }
 
+TEST(MapperTest, WindowFollowsFromTheSlideDistanceOn) {
+  Mapper mapper(smallConfig());
+  const Eigen::Vector3d start(0.125, 0.125, 0.125);
+  mapper.integrate(PointScan(), poseAt(start));
+  const VoxelIndex before = mapper.grid().window().min;
+  const Eigen::Vector3d along_y = Eigen::Vector3d::UnitY();
+  mapper.integrate(PointScan(), poseAt(start + (1.0 - kResolution) * along_y));
+  EXPECT_EQ(mapper.grid().window().min, before);
+  mapper.integrate(PointScan(), poseAt(start + 1.0 * along_y));
+  EXPECT_EQ(mapper.grid().window().min, before + VoxelIndex(0, 4, 0));
+}
+
 TEST(MapperTest, FixedWindowStaysWhereTheConfigurationPutsIt) {
   MapperConfig config = smallConfig();
   config.map_mode = MapMode::kFixed;
@@ -182,6 +194,8 @@ TEST(MapperTest, SnapshotsCarryStampSequenceAndSettings) {
   mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 1600000000200000000));
   EXPECT_EQ(mapper.snapshot()->info().sequence, 2u);
   EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 1600000000200000000);
+  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 5));
+  EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 5) << "of the newest scan, not the largest";
 }
 
 TEST(MapperTest, WallsAreOffUnlessAskedFor) {

@@ -107,5 +107,12 @@ TEST(PointProjectorTest, AnEmptyScanIsEmpty) {
   EXPECT_TRUE(result.scan.misses.empty());
 }
 
+TEST(PointProjectorTest, APointExactlyAtALimitIsWithinIt) {
+  const Projected result = project(limits(1.0, 8.0), {{1.0f, 0.0f, 0.0f}, {0.0f, -8.0f, 0.0f}});
+  EXPECT_EQ(result.count.returns, 2u);
+  EXPECT_EQ(result.scan.returns.size(), 2u);
+  EXPECT_TRUE(result.scan.misses.empty());
+}
+
 }  // namespace
 }  // namespace fiimap

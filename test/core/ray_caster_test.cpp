@@ -225,5 +225,44 @@ TEST(RayCasterTest, ASensorFarFromTheBoxIsNoTrouble) {
   EXPECT_EQ(cast.run().hits, 0u);
 }
 
+TEST(RayCasterTest, BetweenTheRaysThatPassCutRaysFreeNothing) {
+  // A wall from floor to top: rays to its middle are the shortest and end first.
+  const VoxelBox box{{0, 0, 0}, {12, 3, 41}};
+  Cast cast(box, 5.0);
+  cast.from({0.5, 1.5, 20.5});
+  for (int z = 0; z < 41; ++z) cast.toReturn({11.5, 1.5, z + 0.5});
+  cast.run();
+  const test::VoxelSet free = cast.free();
+  // The middle rays are 11 long and end at x = 6.5; the outermost, 22.8 long, at x = 9.1.
+  EXPECT_EQ(free.count({5, 1, 20}), 1u);
+  for (int z = 16; z <= 24; ++z) EXPECT_EQ(free.count({8, 1, z}), 0u) << z;
+  EXPECT_EQ(free.count({8, 1, 6}), 1u);
+  EXPECT_EQ(free.count({8, 1, 34}), 1u);
+}
+
+TEST(RayCasterTest, RaysFromAboveOrBelowFreeNothingBeyondTheBox) {
+  // A fan of rays that are cut one after the other, from a sensor beyond the box's top or floor.
+  constexpr int kHeight = 20;  // of 64 bits in a word
+  const VoxelBox box{{0, 0, 0}, {20, 3, kHeight}};
+  for (const double sensor_z : {45.5, -25.5}) {
+    RayCaster caster{VoxelLattice(kResolution), 12.0};
+    RangeData scan;
+    scan.origin = Eigen::Vector3d(0.5, 1.5, sensor_z) * kResolution;
+    for (int z = 0; z < kHeight; ++z) {
+      const Eigen::Vector3d end = Eigen::Vector3d(19.5, 1.5, z + 0.5) * kResolution;
+      scan.returns.push_back((end - scan.origin).cast<float>());
+    }
+    ScanMask mask;
+    EXPECT_EQ(caster.cast(scan, box, &mask).hits, kHeight);
+    int freed = 0;
+    for (int x = 0; x < 20; ++x) {
+      const std::uint64_t word = mask.column(ScanMask::kFree, x, 1)[0];
+      EXPECT_EQ(word >> kHeight, 0u) << x << ", sensor at " << sensor_z;
+      freed += word != 0 ? 1 : 0;
+    }
+    EXPECT_GT(freed, 0);
+  }
+}
+
 }  // namespace
 }  // namespace fiimap
