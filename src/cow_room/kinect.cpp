@@ -12,6 +12,8 @@ constexpr double kFocalLength = 525.0;  // pixels
 constexpr double kBaseline = 0.075;     // m
 constexpr double kNearest = 0.45;       // m
 constexpr double kFarthest = 8.5;       // m
+constexpr double kDropout = 0.1;        // share of the pixels: dark and glossy things
+constexpr double kFlattest = 1.22;      // rad between ray and normal: 70 degrees
 constexpr float kMetresPerMillimetre = 1e-3f;
 // x and y are rounded to this, m: they take less room then.
 constexpr float kSidewaysStep = 1.0f / 1024.0f;
@@ -35,6 +37,8 @@ sim::NoiseConfig noiseConfig() {
   config.depth_noise = true;
   config.baseline = kBaseline;
   config.disparity_step = 1.0 / 8.0;  // pixels
+  config.dropout = kDropout;
+  config.max_incidence = kFlattest;
   return config;
 }
 
