@@ -8,6 +8,7 @@ from figures import data_uri
 SIZE = (6.4, 5.0)      # inches
 MAX_POINTS_3D = 40000  # of a layer; more are thinned
 ERROR_STEPS = [0, 0.5, 3 ** 0.5 / 2, 1.5, 2, 3]  # voxels; the third: half a diagonal
+EDGE_3D = 300          # points: about what the longest edge of the 3-D view takes on paper
 BELOW_CEILING = 90     # percentile of the heights that the view from above shows
 
 
@@ -56,14 +57,16 @@ def thinned(points):
     return points[::step]
 
 
-def view_3d(occupied, inflated):
+def view_3d(occupied, inflated, resolution):
     title = 'Occupied (colour by height) and inflated (grey)'
     figure = pyplot.figure(figsize=(SIZE[0] * 1.3, SIZE[1] * 1.3), constrained_layout=True)
     axes = figure.add_subplot(111, projection='3d')
     axes.set_title(title)
     grey, solid = thinned(inflated), thinned(occupied)
-    axes.scatter(*grey.T, c='0.5', s=1.0, alpha=0.12, linewidths=0)
-    axes.scatter(*solid.T, c=solid[:, 2], cmap='viridis', s=1.5, alpha=0.8, linewidths=0)
+    edge = EDGE_3D * resolution / max(1.0, numpy.ptp(occupied, axis=0).max())
+    style = {'s': max(1.0, edge) ** 2, 'marker': 's', 'linewidths': 0}
+    axes.scatter(*grey.T, c='0.5', alpha=0.08, **style)
+    axes.scatter(*solid.T, c=solid[:, 2], cmap='viridis', alpha=0.8, **style)
     if hasattr(axes, 'set_box_aspect'):  # since matplotlib 3.3
         axes.set_box_aspect(numpy.maximum(numpy.ptp(occupied, axis=0), 1.0))
     axes.view_init(elev=40, azim=-60)
@@ -89,7 +92,7 @@ def pictures(folder, resolution):
                    ('x, m', 'y, m', 'height, m'), resolution),
         plane_view('From the side', [(inflated, '0.75', grey), (side, side[:, 1], height)], 0, 2,
                    ('x, m', 'z, m', 'y, m'), resolution),
-        view_3d(occupied, inflated),
+        view_3d(occupied, inflated, resolution),
     ]
 
 
