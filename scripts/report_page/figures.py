@@ -41,6 +41,12 @@ def new_figure(title, x_label, y_label, size=SIZE):
     return figure, axes
 
 
+def legend_below(axes):
+    """Where it covers no points; large dots, because those of the plot are small."""
+    axes.legend(fontsize='small', loc='upper center', bbox_to_anchor=(0.5, -0.13), ncol=3,
+                markerscale=2, frameon=False)
+
+
 def sweep_figures(sweep):
     """Figure 6: a plot for each shape and resolution, without series whose time was up at once."""
     groups = {}
@@ -57,7 +63,7 @@ def sweep_figures(sweep):
         for method, points in series.items():
             axes.plot(*zip(*sorted(points)), marker='o', label=label_of(method))
         axes.set_yscale('log')
-        axes.legend(fontsize='small')
+        legend_below(axes)
         images.append((title, data_uri(figure)))
     return images
 
@@ -88,7 +94,7 @@ def compare_figures(compare, csv_text):
                 axes.set_xlim(left=-0.5)
                 axes.axvline(PAPER_MARK, color='grey', linestyle='--', linewidth=1,
                              label="the paper's mark, 150")
-            axes.legend(fontsize='small')
+            legend_below(axes)
             images.append((title, data_uri(figure)))
     return images
 
@@ -110,7 +116,8 @@ def accuracy_figure(accuracy, paper):
     axes.plot(names, [r['blocked_rate_mean'] for r in rows], 'o', color='tab:red', label='blocked')
     axes.tick_params(axis='x', labelsize='x-small')
     axes.set_ylim(0, 1.05)
-    axes.legend(fontsize='small')
+    axes.legend(fontsize='small', loc='upper center', bbox_to_anchor=(0.5, -0.17), ncol=3,
+                frameon=False)
     return [(title, data_uri(figure))]
 
 
