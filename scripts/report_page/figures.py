@@ -129,6 +129,7 @@ def stage_figure(run):
     places = range(len(order))
     axes.bar([p - 0.2 for p in places], [stages[s]['median'] for s in order], 0.4, label='median')
     axes.bar([p + 0.2 for p in places], [stages[s]['p95'] for s in order], 0.4, label='p95')
-    axes.set_xticks(list(places), order)
+    axes.set_xticks(list(places))
+    axes.set_xticklabels(order)
     axes.legend(fontsize='small')
     return [(title, data_uri(figure))]

@@ -104,7 +104,7 @@ def error_picture(csv_file, resolution):
     error = numpy.minimum(numpy.abs(voxels[:, 3]) / resolution, ERROR_STEPS[-1])
     order = numpy.argsort(error, kind='stable')
     scale = colors.BoundaryNorm(ERROR_STEPS, 256)
-    style = {'cmap': 'turbo', 'norm': scale}
+    style = {'cmap': 'plasma', 'norm': scale}
     layer = [(voxels[order], error[order], style)]
     label = 'distance from the surface, voxels'
     return [plane_view('Occupied voxels from above, by error', layer, 0, 1,
