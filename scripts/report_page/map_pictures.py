@@ -47,7 +47,7 @@ def plane_view(title, layers, axis_a, axis_b, labels, resolution):
         drawn = axes.scatter(points[:, axis_a], points[:, axis_b], c=values, s=size, marker='s',
                              linewidths=0, **style)
     if drawn.get_array() is not None:
-        figure.colorbar(drawn, ax=axes, label=labels[2], shrink=0.8)
+        figure.colorbar(drawn, ax=axes, label=labels[2], shrink=0.6)
     return title, data_uri(figure)
 
 
@@ -85,12 +85,16 @@ def pictures(folder, resolution):
     height = {'cmap': 'viridis'}
     low = occupied[occupied[:, 2] <= numpy.percentile(occupied[:, 2], BELOW_CEILING)]
     low = low[numpy.argsort(low[:, 2], kind='stable')]
-    side = occupied[numpy.argsort(-occupied[:, 1], kind='stable')]
+    # The nearer half would hide what is in a room.
+    middle = numpy.median(occupied[:, 1])
+    side, grey_side = (points[points[:, 1] >= middle] for points in (occupied, inflated))
+    side = side[numpy.argsort(-side[:, 1], kind='stable')]
     return [
         plane_view('From above, without the highest tenth',
                    [(inflated, '0.75', grey), (low, low[:, 2], height)], 0, 1,
                    ('x, m', 'y, m', 'height, m'), resolution),
-        plane_view('From the side', [(inflated, '0.75', grey), (side, side[:, 1], height)], 0, 2,
+        plane_view('From the side, without the nearer half',
+                   [(grey_side, '0.75', grey), (side, side[:, 1], height)], 0, 2,
                    ('x, m', 'z, m', 'y, m'), resolution),
         view_3d(occupied, inflated, resolution),
     ]
