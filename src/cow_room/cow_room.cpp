@@ -1,5 +1,7 @@
 #include "cow_room.h"
 
+#include <utility>
+
 #include "mesh.h"
 
 namespace fiimap {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <cstring>
 #include <stdexcept>
 
 #include "cow_room.h"
