@@ -9,7 +9,10 @@ from matplotlib import pyplot  # noqa: E402  the backend must be chosen first
 
 DPI = 100
 SIZE = (6.4, 4.2)  # inches
+WIDE = (7.6, 4.2)
 PAPER_MARK = 150   # change score above which the paper's method is slower than batch inflation
+PAPER_MEAN_US = 3000  # of an update, as the paper reports it for one or two voxels (i7-9700K)
+STAGES = ('project', 'slide', 'raycast', 'fuse', 'inflate', 'snapshot')  # in their order
 MIN_UPDATES = 20   # the first updates of a recording say little about the others
 LABELS = {
     'incremental': 'fiimap, incremental', 'bfs6': "the paper's search (6)", 'bfs18': 'search (18)',
@@ -38,6 +41,12 @@ def new_figure(title, x_label, y_label, size=SIZE):
     return figure, axes
 
 
+def legend_below(axes):
+    """Where it covers no points; large dots, because those of the plot are small."""
+    axes.legend(fontsize='small', loc='upper center', bbox_to_anchor=(0.5, -0.13), ncol=3,
+                markerscale=2, frameon=False)
+
+
 def sweep_figures(sweep):
     """Figure 6: a plot for each shape and resolution, without series whose time was up at once."""
     groups = {}
@@ -54,7 +63,7 @@ def sweep_figures(sweep):
         for method, points in series.items():
             axes.plot(*zip(*sorted(points)), marker='o', label=label_of(method))
         axes.set_yscale('log')
-        axes.legend(fontsize='small')
+        legend_below(axes)
         images.append((title, data_uri(figure)))
     return images
 
@@ -77,39 +86,50 @@ def compare_figures(compare, csv_text):
             figure, axes = new_figure(title, x_label, 'us per update')
             for method in methods:
                 axes.scatter(x, updates[f'{method}_us'], s=6, alpha=0.6, label=label_of(method))
+            axes.axhline(PAPER_MEAN_US, color='grey', linestyle=':', linewidth=1,
+                         label="the paper's mean, 3 ms")
             axes.set_yscale('log')
             if x is scores:
                 axes.set_xscale('symlog')
                 axes.set_xlim(left=-0.5)
                 axes.axvline(PAPER_MARK, color='grey', linestyle='--', linewidth=1,
                              label="the paper's mark, 150")
-            axes.legend(fontsize='small')
+            legend_below(axes)
             images.append((title, data_uri(figure)))
     return images
 
 
-def accuracy_figure(accuracy):
+def accuracy_figure(accuracy, paper):
+    """Table 1: this recording's maps, then those of the paper at the same resolutions."""
     title = 'Share of held-out end points in occupied voxels'
     rows = [r for r in accuracy['results'] if r['variant'] == 'final_map']
+    resolutions = {r['resolution'] for r in rows}
+    theirs = [p for p in paper if p['resolution'] in resolutions]
     names = [f"{r['method']}\n{r['resolution']:g} m" for r in rows]
-    figure, axes = new_figure(title, '', 'share')
+    paper_names = [f"{p['method'].replace(' (', chr(10) + '(')}\n{p['resolution']:g} m"
+                   for p in theirs]
+    figure, axes = new_figure(title, '', 'share', WIDE)
     axes.bar(names, [r['hit_rate_mean'] for r in rows], yerr=[r['hit_rate_std'] for r in rows],
              capsize=4, label='hit')
+    axes.bar(paper_names, [p['hit'] for p in theirs], yerr=[p['std'] for p in theirs], capsize=4,
+             color='0.7', label="hit, the paper's corridor")
     axes.plot(names, [r['blocked_rate_mean'] for r in rows], 'o', color='tab:red', label='blocked')
+    axes.tick_params(axis='x', labelsize='x-small')
     axes.set_ylim(0, 1.05)
-    axes.legend(fontsize='small')
+    axes.legend(fontsize='small', loc='upper center', bbox_to_anchor=(0.5, -0.17), ncol=3,
+                frameon=False)
     return [(title, data_uri(figure))]
 
 
 def stage_figure(run):
     title = 'Time of each stage per scan'
     stages = run['stages_ms']
-    order = [s for s in ('project', 'slide', 'raycast', 'fuse', 'inflate', 'snapshot')
-             if s in stages]
+    order = [s for s in STAGES if s in stages]
     figure, axes = new_figure(title, '', 'ms')
     places = range(len(order))
     axes.bar([p - 0.2 for p in places], [stages[s]['median'] for s in order], 0.4, label='median')
     axes.bar([p + 0.2 for p in places], [stages[s]['p95'] for s in order], 0.4, label='p95')
-    axes.set_xticks(list(places), order)
+    axes.set_xticks(list(places))
+    axes.set_xticklabels(order)
     axes.legend(fontsize='small')
     return [(title, data_uri(figure))]

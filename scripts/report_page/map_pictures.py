@@ -8,6 +8,7 @@ from figures import data_uri
 SIZE = (6.4, 5.0)      # inches
 MAX_POINTS_3D = 40000  # of a layer; more are thinned
 ERROR_STEPS = [0, 0.5, 3 ** 0.5 / 2, 1.5, 2, 3]  # voxels; the third: half a diagonal
+EDGE_3D = 300          # points: about what the longest edge of the 3-D view takes on paper
 BELOW_CEILING = 90     # percentile of the heights that the view from above shows
 
 
@@ -46,7 +47,7 @@ def plane_view(title, layers, axis_a, axis_b, labels, resolution):
         drawn = axes.scatter(points[:, axis_a], points[:, axis_b], c=values, s=size, marker='s',
                              linewidths=0, **style)
     if drawn.get_array() is not None:
-        figure.colorbar(drawn, ax=axes, label=labels[2], shrink=0.8)
+        figure.colorbar(drawn, ax=axes, label=labels[2], shrink=0.6)
     return title, data_uri(figure)
 
 
@@ -56,14 +57,16 @@ def thinned(points):
     return points[::step]
 
 
-def view_3d(occupied, inflated):
+def view_3d(occupied, inflated, resolution):
     title = 'Occupied (colour by height) and inflated (grey)'
     figure = pyplot.figure(figsize=(SIZE[0] * 1.3, SIZE[1] * 1.3), constrained_layout=True)
     axes = figure.add_subplot(111, projection='3d')
     axes.set_title(title)
     grey, solid = thinned(inflated), thinned(occupied)
-    axes.scatter(*grey.T, c='0.5', s=1.0, alpha=0.12, linewidths=0)
-    axes.scatter(*solid.T, c=solid[:, 2], cmap='viridis', s=1.5, alpha=0.8, linewidths=0)
+    edge = EDGE_3D * resolution / max(1.0, numpy.ptp(occupied, axis=0).max())
+    style = {'s': max(1.0, edge) ** 2, 'marker': 's', 'linewidths': 0}
+    axes.scatter(*grey.T, c='0.5', alpha=0.08, **style)
+    axes.scatter(*solid.T, c=solid[:, 2], cmap='viridis', alpha=0.8, **style)
     if hasattr(axes, 'set_box_aspect'):  # since matplotlib 3.3
         axes.set_box_aspect(numpy.maximum(numpy.ptp(occupied, axis=0), 1.0))
     axes.view_init(elev=40, azim=-60)
@@ -82,14 +85,18 @@ def pictures(folder, resolution):
     height = {'cmap': 'viridis'}
     low = occupied[occupied[:, 2] <= numpy.percentile(occupied[:, 2], BELOW_CEILING)]
     low = low[numpy.argsort(low[:, 2], kind='stable')]
-    side = occupied[numpy.argsort(-occupied[:, 1], kind='stable')]
+    # The nearer half would hide what is in a room.
+    middle = numpy.median(occupied[:, 1])
+    side, grey_side = (points[points[:, 1] >= middle] for points in (occupied, inflated))
+    side = side[numpy.argsort(-side[:, 1], kind='stable')]
     return [
         plane_view('From above, without the highest tenth',
                    [(inflated, '0.75', grey), (low, low[:, 2], height)], 0, 1,
                    ('x, m', 'y, m', 'height, m'), resolution),
-        plane_view('From the side', [(inflated, '0.75', grey), (side, side[:, 1], height)], 0, 2,
+        plane_view('From the side, without the nearer half',
+                   [(grey_side, '0.75', grey), (side, side[:, 1], height)], 0, 2,
                    ('x, m', 'z, m', 'y, m'), resolution),
-        view_3d(occupied, inflated),
+        view_3d(occupied, inflated, resolution),
     ]
 
 
@@ -101,7 +108,7 @@ def error_picture(csv_file, resolution):
     error = numpy.minimum(numpy.abs(voxels[:, 3]) / resolution, ERROR_STEPS[-1])
     order = numpy.argsort(error, kind='stable')
     scale = colors.BoundaryNorm(ERROR_STEPS, 256)
-    style = {'cmap': 'turbo', 'norm': scale}
+    style = {'cmap': 'plasma', 'norm': scale}
     layer = [(voxels[order], error[order], style)]
     label = 'distance from the surface, voxels'
     return [plane_view('Occupied voxels from above, by error', layer, 0, 1,

@@ -67,7 +67,7 @@ def render(name, bag, folder, steps, jobs):
     images = {
         'run': figures.stage_figure(data['run']),
         'map': map_pictures.pictures(folder / 'run', resolution),
-        'accuracy': figures.accuracy_figure(data['accuracy']),
+        'accuracy': figures.accuracy_figure(data['accuracy'], PAPER_ACCURACY),
         'sweep': figures.sweep_figures(data['sweep']),
         'compare': figures.compare_figures(data['compare'], csv_text),
     }
@@ -82,5 +82,6 @@ def render(name, bag, folder, steps, jobs):
     return environment.get_template('page.html').render(
         name=name, bag=bag.name, data=data, cell=number_cells(data), images=images,
         paper=PAPER_ACCURACY, parameters=parameters, machine=machine(), version=version(),
-        jobs=jobs, embedded=embedded, label_of=figures.label_of,
+        jobs=jobs, stages=[s for s in figures.STAGES if s in data['run']['stages_ms']],
+        embedded=embedded, label_of=figures.label_of,
         commands=[[s.name, *s.arguments] for s in steps])

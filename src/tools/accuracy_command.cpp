@@ -51,7 +51,11 @@ int evaluateAccuracy(const AccuracyOptions& options) {
                              options.octomap);
   validation.play(input);
   validation.printWarnings();
-  if (validation.heldOut() == 0) throw std::runtime_error("no scan could be held out");
+  if (validation.heldOut() == 0) {
+    throw std::runtime_error("no scan was held out of " +
+                             std::to_string(validation.counters().integrated) + " (" +
+                             textOf(splits) + "); hold out more with --folds or --split");
+  }
 
   const std::vector<AccuracyRow> rows = validation.rows();
   const std::vector<MapAgreement> agreements = validation.agreements();

@@ -1,10 +1,10 @@
 #include "evaluation_input.h"
 
-#include <fstream>
 #include <stdexcept>
 
 #include "bag_check.h"
 #include "fiimap/ros/parameter_sources.h"
+#include "output_file.h"
 
 namespace fiimap {
 
@@ -14,9 +14,12 @@ EvaluationInput::EvaluationInput(const InputOptions& options) : options_(options
   try {
     bag_.open(options.bag, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument("cannot read the bag " + options.bag + ": " + error.what());
+    throw std::invalid_argument(
+        "cannot read the bag " + options.bag +
+        ": it is missing, cut off or no bag (rosbag reindex may mend it): " + error.what());
   }
   topics_ = chooseTopics(bag_, given, topics_, &node_);
+  if (!options.json.empty()) checkWritable(options.json);
 }
 
 /// \return what the user set, by name.
@@ -51,9 +54,7 @@ void EvaluationInput::writeJson(nlohmann::json figures) const {
   for (const auto& list : {mapperParameters(&mapper), nodeParameters(&node), topics.parameters()}) {
     for (const Parameter& parameter : list) figures["parameters"][parameter.name] = parameter.get();
   }
-  std::ofstream stream(options_.json);
-  stream << figures.dump(2) << '\n';
-  if (!stream.flush()) throw std::runtime_error("cannot write " + options_.json);
+  writeWhole(options_.json, figures.dump(2) + '\n');
 }
 
 }  // namespace fiimap

@@ -128,11 +128,15 @@ double ExactScene::Shape::distanceWhileThere(const Eigen::Vector3d& point_W, dou
 ExactScene ExactScene::load(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) throw std::invalid_argument("cannot read the scene " + file);
-  const Json json = Json::parse(stream);
-  ExactScene scene;
-  scene.start_time_ = json.at("t0");
-  for (const Json& shape : json.at("primitives")) scene.shapes_.push_back(shapeFrom(shape));
-  return scene;
+  try {
+    const Json json = Json::parse(stream);
+    ExactScene scene;
+    scene.start_time_ = json.at("t0");
+    for (const Json& shape : json.at("primitives")) scene.shapes_.push_back(shapeFrom(shape));
+    return scene;
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument(file + " is no scene (data/README.md): " + error.what());
+  }
 }
 
 double ExactScene::signedDistance(const Eigen::Vector3d& point_W, double time) const {

@@ -1,6 +1,7 @@
 #include "run_command.h"
 
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "fiimap/ros/scan_decoder.h"
 #include "fiimap/ros/steady_time.h"
 #include "inflation_check.h"
+#include "output_file.h"
 #include "run_report.h"
 #include "scan_evaluator.h"
 
@@ -61,6 +63,20 @@ class MapBuilder : public ScanEvaluator {
   RunReport report_;
 };
 
+/// Writes all files of the map, or none.
+void save(const Snapshot& map, const std::string& prefix) {
+  const std::string occupied = prefix + "_occupied.pcd", inflated = prefix + "_inflated.pcd";
+  const std::string octomap = prefix + ".bt";
+  try {
+    writePcd(map, Plane::kOccupied, occupied);
+    writePcd(map, Plane::kInflated, inflated);
+    writeOctomap(map, octomap);
+  } catch (const std::exception& error) {
+    for (const std::string& file : {occupied, inflated, octomap}) std::remove(file.c_str());
+    throw std::runtime_error("cannot save the map as " + prefix + ": " + error.what());
+  }
+}
+
 void print(const std::vector<Parameter>& parameters) {
   for (const Parameter& p : parameters) {
     std::cout << p.name << '\t' << p.get() << '\t' << p.unit << '\t' << p.allowed << '\t'
@@ -73,6 +89,7 @@ void print(const std::vector<Parameter>& parameters) {
 int run(const RunOptions& options) {
   if (options.verify < 0) throw std::invalid_argument("--verify must be at least 1");
   const EvaluationInput input(options.input);
+  if (!options.save.empty()) checkWritable(options.save + ".bt");
   MapBuilder builder(input.mapper(), options.verify);
   builder.play(input);
   const RunReport report = builder.finish();
@@ -81,12 +98,8 @@ int run(const RunOptions& options) {
   std::cout << options.input.bag << '\n' << report.text();
   nlohmann::json json = report.json();
   json["warnings"] = builder.warnings();
+  if (!options.save.empty()) save(builder.snapshot(), options.save);
   input.writeJson(json);
-  if (!options.save.empty()) {
-    writePcd(builder.snapshot(), Plane::kOccupied, options.save + "_occupied.pcd");
-    writePcd(builder.snapshot(), Plane::kInflated, options.save + "_inflated.pcd");
-    writeOctomap(builder.snapshot(), options.save + ".bt");
-  }
   return report.mismatches() == 0 ? 0 : 1;
 }
 

@@ -1,12 +1,13 @@
 #include "truth_command.h"
 
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "fiimap/mapper.h"
 #include "fiimap/ros/scan_decoder.h"
+#include "output_file.h"
 #include "reading_projector.h"
 #include "scan_evaluator.h"
 #include "truth/passing_obstacles.h"
@@ -41,14 +42,14 @@ class TruthComparison : public ScanEvaluator {
   /// The last map at the first resolution: x, y, z, distance from the surface (m).
   void writeVoxels(const std::string& file) const {
     const std::shared_ptr<const Snapshot> map = candidates_.front().mapper->snapshot();
-    std::ofstream stream(file);
+    std::ostringstream stream;
     stream << "x,y,z,distance\n";
     for (const VoxelIndex& v : map->voxels(Plane::kOccupied, map->window())) {
       const Eigen::Vector3d center_W = map->lattice().centerOf(v);
       stream << center_W.x() << ',' << center_W.y() << ',' << center_W.z() << ','
              << scene_.signedDistance(center_W, time_) << '\n';
     }
-    if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+    writeWhole(file, stream.str());
   }
 
   std::vector<TruthRow> rows() const {
@@ -113,6 +114,7 @@ int evaluateTruth(const TruthOptions& options) {
   if (options.scene.empty()) throw std::invalid_argument("truth needs --scene FILE");
   if (options.snapshots < 1) throw std::invalid_argument("--snapshots must be at least 1");
   const EvaluationInput input(options.input);
+  if (!options.voxels.empty()) checkWritable(options.voxels);
   std::vector<double> resolutions = options.resolutions;
   if (resolutions.empty()) resolutions = {input.mapper().resolution};
   TruthComparison comparison(input.mapper(), resolutions, ExactScene::load(options.scene),
