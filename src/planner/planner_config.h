@@ -41,7 +41,7 @@ struct FlightConfig {
 
 /// The node around it.
 struct PlannerNodeConfig {
-  std::string map = "/fiimap";    ///< full name of the mapping nodelet
+  std::string map = "fiimap";     ///< name of the mapping nodelet, relative to the namespace
   double command_rate = 100.0;    ///< Hz
   double max_yaw_rate = 1.5;      ///< rad/s
   double odometry_timeout = 0.3;  ///< s

@@ -108,7 +108,7 @@ std::vector<Parameter> flightParameters(FlightConfig* c) {
 
 std::vector<Parameter> nodeParameters(PlannerNodeConfig* c) {
   return {
-      textParameter("map", &c->map, "full name of the mapping nodelet, in the same manager"),
+      textParameter("map", &c->map, "name of the mapping nodelet, in the same manager"),
       numberParameter("command_rate", &c->command_rate, 1.0, 1000.0, "Hz", "rate of commands"),
       numberParameter("max_yaw_rate", &c->max_yaw_rate, 0.01, 100.0, "rad/s",
                       "how fast the commanded heading turns"),
@@ -136,9 +136,8 @@ std::vector<Parameter> plannerParameters(PlannerParameters* parameters) {
 
 std::vector<std::string> configure(const ParameterMap& values, PlannerParameters* parameters) {
   const std::vector<std::string> unknown = applyParameters(values, plannerParameters(parameters));
-  if (parameters->node.map.empty() || parameters->node.map.front() != '/') {
-    throw std::invalid_argument("parameter map = '" + parameters->node.map +
-                                "': must be a full name, like /fiimap");
+  if (parameters->node.map.empty()) {
+    throw std::invalid_argument("parameter map = '': must be the name of the mapping nodelet");
   }
   return unknown;
 }
