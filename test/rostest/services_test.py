@@ -16,6 +16,7 @@ FORM = ('points', 'odometry')
 RESOLUTION = 0.1
 PARAMETERS = {**PATIENT_QUEUES, 'sensor': FORM[0], 'resolution': RESOLUTION}
 SCANS = 20
+BOX_REACH = 20  # voxels
 
 
 class ServicesTest(MapTest):
@@ -115,11 +116,15 @@ class ServicesTest(MapTest):
         listener = self.start_and_play()
         occupied, inflated = (voxels_of_cloud(cloud, RESOLUTION)
                               for cloud in listener.wait_for_clouds())
-        low, high = Point(-6.05, -6.05, -0.95), Point(6.05, 6.05, 2.95)
+        # Around an occupied voxel in the middle of the others.
+        middle = sorted(map(tuple, occupied))[len(occupied) // 2]
+        low, high = (Point(*(RESOLUTION * (c + 0.5 + side * BOX_REACH) for c in middle))
+                     for side in (-1, 1))
         box = self.call('get_box', GetBox, low, high)
         self.assertTrue(box.success, box.message)
         first = [round(c / RESOLUTION) for c in (box.origin.x, box.origin.y, box.origin.z)]
         sizes = (box.size_x, box.size_y, box.size_z)
+        self.assertEqual(sizes, 3 * (2 * BOX_REACH + 1,))
         self.assertEqual(len(box.voxels), sizes[0] * sizes[1] * sizes[2])
         found = (set(), set())
         for i, state in enumerate(box.voxels):
