@@ -52,6 +52,9 @@ class ClosedLoop {
 
   void step() {
     simulator_.advance();
+    if (simulator_.isDue(kClearanceRate)) {
+      outcome_.clearances_m.push_back(simulator_.record().clearance);
+    }
     if (simulator_.cameraIsDue()) images_.push_back({simulator_.time(), simulator_.depthImage()});
     if (const auto odometry = simulator_.odometry()) {
       vehicle_ = *odometry;

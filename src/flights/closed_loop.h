@@ -9,14 +9,18 @@
 
 namespace fiimap {
 
+/// How often a flight's clearance is noted, Hz.
+constexpr double kClearanceRate = 10.0;
+
 /// How a flight ended, and what happened on the way.
 struct FlightOutcome {
   bool reached = false;
   double seconds = 0.0;  ///< simulated, from the start
   sim::FlightRecord truth;
   FlightStatus planner;
-  std::vector<double> update_ms;    ///< wall-clock time of each update of the map
-  std::vector<double> planning_ms;  ///< likewise of each step of the planner that planned
+  std::vector<double> clearances_m;  ///< true ones, kClearanceRate times a second
+  std::vector<double> update_ms;     ///< wall-clock time of each update of the map
+  std::vector<double> planning_ms;   ///< likewise of each step of the planner that planned
 };
 
 /// Flies from the start of a world to its goal: simulator, map and planner in one thread, in steps

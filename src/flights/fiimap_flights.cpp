@@ -1,7 +1,9 @@
 // Flies many closed-loop flights and prints how they ended: one line for each, and a summary for
 // each combination of the settings that were varied.
 
+#include <algorithm>
 #include <boost/program_options.hpp>
+#include <cstddef>
 #include <exception>
 #include <fstream>
 #include <iomanip>
@@ -22,6 +24,8 @@ namespace {
 namespace po = boost::program_options;
 using fiimap::FlightOutcome;
 using fiimap::FlightSettings;
+
+constexpr double kClearanceBin = 0.05;  // m
 
 constexpr char kUsage[] =
     "Closed-loop flights without ROS: simulator, map and planner in one thread, in simulated time. "
@@ -89,6 +93,17 @@ std::vector<std::vector<std::string>> combinations(const std::vector<std::string
   return all;
 }
 
+/// How many of a flight's clearances are in [0, kBin), [kBin, 2 kBin), ... m.
+std::vector<int> histogramOf(const std::vector<double>& clearances_m) {
+  std::vector<int> counts;
+  for (const double clearance : clearances_m) {
+    const auto bin = static_cast<std::size_t>(std::max(0.0, clearance) / kClearanceBin);
+    if (bin >= counts.size()) counts.resize(bin + 1);
+    ++counts[bin];
+  }
+  return counts;
+}
+
 nlohmann::json toJson(const FlightOutcome& outcome) {
   const fiimap::Quantiles update = fiimap::quantilesOf(outcome.update_ms);
   const fiimap::Quantiles planning = fiimap::quantilesOf(outcome.planning_ms);
@@ -96,6 +111,8 @@ nlohmann::json toJson(const FlightOutcome& outcome) {
           {"seconds", outcome.seconds},
           {"path_length_m", outcome.truth.path_length},
           {"least_clearance_m", outcome.truth.least_clearance},
+          {"clearance_bin_m", kClearanceBin},
+          {"clearance_histogram", histogramOf(outcome.clearances_m)},
           {"collisions", outcome.truth.collisions},
           {"plans", outcome.planner.plans},
           {"plan_failures", outcome.planner.failures},

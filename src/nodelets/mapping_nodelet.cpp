@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "fiimap/ros/box_query.h"
 #include "fiimap/ros/map_files.h"
 #include "fiimap/ros/map_handle_message.h"
 #include "fiimap/ros/map_messages.h"
@@ -101,6 +102,8 @@ void MappingNodelet::advertise() {
   services_.push_back(
       concurrent_node.advertiseService("reset", &MappingNodelet::onResetService, this));
   services_.push_back(
+      concurrent_node.advertiseService("get_box", &MappingNodelet::onBoxService, this));
+  services_.push_back(
       concurrent_node.advertiseService("save_map", &MappingNodelet::onSaveService, this));
   diagnostics_timer_ = getMTNodeHandle().createWallTimer(
       ros::WallDuration(kDiagnosticsPeriod),
@@ -111,6 +114,16 @@ bool MappingNodelet::onResetService(std_srvs::Trigger::Request&,
                                     std_srvs::Trigger::Response& response) {
   response.success = mapping_->reset();
   response.message = response.success ? "the map is empty" : "the node is shutting down";
+  return true;
+}
+
+bool MappingNodelet::onBoxService(GetBox::Request& request, GetBox::Response& response) {
+  const std::shared_ptr<const Snapshot> snapshot = handle_->latest();
+  if (snapshot) {
+    response = queryBox(*snapshot, request, node_config_.map_frame);
+  } else {
+    response.message = "there is no map yet";
+  }
   return true;
 }
 

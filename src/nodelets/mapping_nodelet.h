@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fiimap/GetBox.h>
 #include <fiimap/SaveMap.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
@@ -38,6 +39,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   void advertise();
 
   bool onResetService(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onBoxService(GetBox::Request& request, GetBox::Response& response);
   bool onSaveService(SaveMap::Request& request, SaveMap::Response& response);
   void onDiagnosticsTimer();
 

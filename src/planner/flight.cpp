@@ -15,6 +15,8 @@ constexpr double kResting = 0.05;    // m/s
 constexpr double kProgress = 0.1;    // m, that a plan must lead elsewhere to be worth flying
 constexpr double kLookAhead = 1.0;   // m, of way to see where it leads
 constexpr double kRestTime = 0.2;    // s, after braking: commands are sent at their own moments
+constexpr double kBlindStep = 0.02;  // s, between places that are looked at
+constexpr double kOwnPlace = 0.2;    // m, around the vehicle, which need not be seen
 
 double angleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
 
@@ -74,7 +76,7 @@ void Flight::step(const FlightInput& input) {
     return;
   }
   if (input.snapshot && (!space_ || &space_->snapshot() != input.snapshot.get())) {
-    space_.emplace(input.snapshot, planner_config_.rules);
+    space_.emplace(input.snapshot, planner_config_.rules, input.vehicle.position);
   }
   followVehicle(input);
   passGoals(input);
@@ -133,6 +135,10 @@ void Flight::flyTo(const Eigen::Vector3d& goal, const FlightInput& input) {
   }
   if (!rests) {
     const bool braking = !flown_.next && flown_.current->isBraking();
+    if (!braking && fliesBlindly(input)) {
+      brake("it would get to where it did not look yet");
+      return;
+    }
     if (!braking) set(FlightState::kFlying, collision ? "looks for a way around an obstacle" : "");
   }
 }
@@ -230,6 +236,10 @@ std::optional<double> Flight::nextCollision(const FlightInput& input) const {
   const double max_escape = planner_config_.max_escape;
   if (!flown_.next) return firstCollision(*flown_.current, *space_, {input.time}, max_escape);
   const double switched = flown_.next->startTime();
+  // A vehicle that rests where it must not be gets out of there with the next one.
+  if (input.time >= flown_.current->endTime()) {
+    return firstCollision(*flown_.next, *space_, {switched}, max_escape);
+  }
   const std::optional<double> before =
       firstCollision(*flown_.current, *space_, {input.time, switched}, max_escape);
   return before ? before : firstCollision(*flown_.next, *space_, {switched}, max_escape);
@@ -237,6 +247,19 @@ std::optional<double> Flight::nextCollision(const FlightInput& input) const {
 
 double Flight::timeToBrake(double time) const {
   return flown_.at(time).at(time).velocity.norm() / planner_config_.max_braking;
+}
+
+bool Flight::fliesBlindly(const FlightInput& input) const {
+  if (!space_) return false;
+  const VehicleState& vehicle = input.vehicle;
+  const double soon = timeToBrake(input.time) + config_.braking_margin + status_.planning_time;
+  for (double time = input.time; time < input.time + soon; time += kBlindStep) {
+    const Eigen::Vector3d place = flown_.at(time).at(time).position;
+    const Eigen::Vector2d way = (place - vehicle.position).head<2>();
+    if (way.norm() < kOwnPlace || !space_->isUnseen(place)) continue;
+    if (angleBetween(std::atan2(way.y(), way.x()), vehicle.yaw) > config_.view_azimuth) return true;
+  }
+  return false;
 }
 
 void Flight::set(FlightState state, const std::string& reason) {

@@ -80,6 +80,8 @@ class Flight {
   bool hasJustBraked(double time) const;
   std::optional<double> nextCollision(const FlightInput& input) const;
   double timeToBrake(double time) const;
+  /// Whether it will soon be too late to brake before a place that it neither saw nor looks at.
+  bool fliesBlindly(const FlightInput& input) const;
   void set(FlightState state, const std::string& reason);
 
   PlannerConfig planner_config_;

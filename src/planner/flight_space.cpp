@@ -19,8 +19,13 @@ int toHeight(double voxels) {
 
 }  // namespace
 
-FlightSpace::FlightSpace(std::shared_ptr<const Snapshot> snapshot, const FlightRules& rules)
-    : snapshot_(std::move(snapshot)), rules_(rules) {
+FlightSpace::FlightSpace(std::shared_ptr<const Snapshot> snapshot, const FlightRules& rules,
+                         const Eigen::Vector3d& vehicle_W)
+    : snapshot_(std::move(snapshot)),
+      rules_(rules),
+      vehicle_(vehicle_W / resolution()),
+      view_sine_(std::sin(rules.view_elevation)),
+      view_cosine_(std::cos(rules.view_elevation)) {
   const VirtualWalls& walls = snapshot_->info().walls;
   constexpr double kRounding = 1e-9;  // voxels
   lowest_ = toHeight(std::ceil(walls.floor / resolution() - kRounding));
@@ -34,7 +39,7 @@ bool FlightSpace::isFree(const VoxelIndex& v) const {
       case Occupancy::kFree:
         return true;
       case Occupancy::kUnknown:
-        return rules_.unknown == Unseen::kFree;
+        return isUnknownFree(v);
       case Occupancy::kOutside:
         return rules_.outside == Unseen::kFree;
       case Occupancy::kOccupied:
@@ -45,7 +50,7 @@ bool FlightSpace::isFree(const VoxelIndex& v) const {
     case Inflation::kFree:
       return true;
     case Inflation::kUnknown:
-      return rules_.unknown == Unseen::kFree;
+      return isUnknownFree(v);
     case Inflation::kOutside:
       return rules_.outside == Unseen::kFree;
     case Inflation::kInflated:
@@ -54,8 +59,22 @@ bool FlightSpace::isFree(const VoxelIndex& v) const {
   return false;
 }
 
+bool FlightSpace::isUnknownFree(const VoxelIndex& v) const {
+  constexpr double kLevel = 1.5;      // voxels of climb that count as none
+  constexpr double kRounding = 1e-6;  // voxels; at an elevation of pi/2 everything is seen
+  if (rules_.unknown == Unseen::kObstacle) return false;
+  const Eigen::Vector3d offset = (v.cast<double>().array() + 0.5).matrix() - vehicle_;
+  const double climb = std::max(0.0, std::abs(offset.z()) - kLevel);
+  return climb * view_cosine_ <= offset.head<2>().norm() * view_sine_ + kRounding;
+}
+
 bool FlightSpace::isFree(const Eigen::Vector3d& point_W) const {
   return lattice().canIndex(point_W) && isFree(lattice().indexOf(point_W));
+}
+
+bool FlightSpace::isUnseen(const Eigen::Vector3d& point_W) const {
+  return rules_.layer == FlightLayer::kRaw ? snapshot_->occupancy(point_W) == Occupancy::kUnknown
+                                           : snapshot_->inflation(point_W) == Inflation::kUnknown;
 }
 
 bool FlightSpace::isCrossable(const VoxelIndex& v) const {

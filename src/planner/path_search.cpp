@@ -64,6 +64,11 @@ VoxelIndex boundedGoal(const VoxelIndex& start, const VoxelIndex& goal) {
   return start + (scale * offset).array().round().matrix().cast<int>();
 }
 
+/// The cube of `stride` voxels along each axis that holds a voxel, in a grid of such cubes.
+VoxelIndex cubeOf(const VoxelIndex& v, int stride) {
+  return (v.cast<double>() / stride).array().floor().matrix().cast<int>();
+}
+
 /// Whether one step from a voxel of the region towards a goal outside of it leaves the region.
 bool isOnBorderTo(const VoxelIndex& goal, const VoxelIndex& v, const VoxelBox& region) {
   return ((goal.array() >= region.max.array() && v.array() + 1 == region.max.array()) ||
@@ -85,21 +90,48 @@ VoxelPath PathSearch::find(const FlightSpace& space, const VoxelIndex& start,
     if (!escape(space, start, max_escape, &path)) return path;
     first_free = end_;
   }
-  const VoxelIndex target = boundedGoal(start, goal);
-  const bool ends_at_goal = region.contains(target);
+  searchFor(
+      first_free, boundedGoal(start, goal), [&](const VoxelIndex& v) { return space.isFree(v); },
+      &path);
+  return path;
+}
+
+VoxelPath PathSearch::findRoughly(const FlightSpace& space, const VoxelIndex& start,
+                                  const VoxelIndex& goal, const VoxelBox& region, int stride) {
+  const auto middleOf = [stride](const VoxelIndex& cube) -> VoxelIndex {
+    return (cube * stride).array() + stride / 2;
+  };
+  const VoxelIndex first = cubeOf(start, stride);
+  const VoxelIndex target = cubeOf(boundedGoal(start, goal), stride);
+  // Cubes that lie in the region as a whole.
+  region_ = {cubeOf(region.min.array() + stride - 1, stride), cubeOf(region.max, stride)};
+  VoxelPath path;
+  if (!region_.contains(first)) return path;
+  searchFor(
+      first, target,
+      [&](const VoxelIndex& cube) { return space.isFree(cube == target ? goal : middleOf(cube)); },
+      &path);
+  for (VoxelIndex& v : path.voxels) v = middleOf(v);
+  path.voxels.front() = start;
+  path.cost *= stride;
+  return path;
+}
+
+template <typename IsOpen>
+void PathSearch::searchFor(const VoxelIndex& start, const VoxelIndex& target, IsOpen&& is_open,
+                           VoxelPath* path) {
+  const bool ends_at_goal = region_.contains(target);
   const bool reached = run(
-      first_free, [&](const VoxelIndex& v) { return space.isFree(v); },
-      [&](const VoxelIndex& v) { return freeCost(target - v); },
+      start, is_open, [&](const VoxelIndex& v) { return freeCost(target - v); },
       [&](const VoxelIndex& v) {
-        return ends_at_goal ? v == target : isOnBorderTo(target, v, region);
+        return ends_at_goal ? v == target : isOnBorderTo(target, v, region_);
       });
   const VoxelIndex last = reached ? end_ : nearest_;
-  path.end = !reached ? PathEnd::kNearest : ends_at_goal ? PathEnd::kGoal : PathEnd::kBorder;
-  path.cost = costOf(last);
-  path.visited += visited_;
-  trace(last, &path.voxels);
-  path.voxels.push_back(last);
-  return path;
+  path->end = !reached ? PathEnd::kNearest : ends_at_goal ? PathEnd::kGoal : PathEnd::kBorder;
+  path->cost = costOf(last);
+  path->visited += visited_;
+  trace(last, &path->voxels);
+  path->voxels.push_back(last);
 }
 
 bool PathSearch::escape(const FlightSpace& space, const VoxelIndex& start, double max_escape,

@@ -11,7 +11,7 @@ namespace fiimap {
 /// Where a path ends.
 enum class PathEnd {
   kGoal,     ///< at the goal
-  kBorder,   ///< at the border of the region, on the shortest way to a goal outside of it
+  kBorder,   ///< on the way to a goal that is farther: at the border of the region
   kNearest,  ///< where it comes nearest to a goal that cannot be reached, or not with so much work
   kNowhere,  ///< the start is not free and there is no way out of where it is
 };
@@ -43,7 +43,18 @@ class PathSearch {
   VoxelPath find(const FlightSpace& space, const VoxelIndex& start, const VoxelIndex& goal,
                  const VoxelBox& region, double max_escape);
 
+  /// A rough way, over the middles of cubes of `stride` voxels: where to go in a large region, with
+  /// a fraction of the work. Only these middles are looked at, so it may cut corners, cross what is
+  /// thinner than a cube and miss what is narrower.
+  /// \return the start, then middles of cubes, each a neighbour of the one before. No escape.
+  VoxelPath findRoughly(const FlightSpace& space, const VoxelIndex& start, const VoxelIndex& goal,
+                        const VoxelBox& region, int stride);
+
  private:
+  /// Searches for a target, or for the border of the region on the way to it; fills in `path`.
+  template <typename IsOpen>
+  void searchFor(const VoxelIndex& start, const VoxelIndex& target, IsOpen&& is_open,
+                 VoxelPath* path);
   template <typename IsOpen, typename Heuristic, typename IsEnd>
   bool run(const VoxelIndex& start, IsOpen&& is_open, Heuristic&& heuristic, IsEnd&& is_end);
   template <typename IsOpen, typename Heuristic>
@@ -56,7 +67,7 @@ class PathSearch {
 
   std::size_t max_visited_;
   SearchNodes nodes_;
-  VoxelBox region_;
+  VoxelBox region_;  ///< that the search does not leave
   // Of the last run.
   VoxelIndex end_ = VoxelIndex::Zero();      ///< where it ended
   VoxelIndex nearest_ = VoxelIndex::Zero();  ///< visited voxel with the least heuristic

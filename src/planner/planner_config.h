@@ -20,10 +20,9 @@ struct PlannerConfig {
   double knot_interval = 0.2;     ///< s, between the knots of the B-spline
   double clearance = 0.1;  ///< m, that control points keep from obstacles they were pushed out of
 
-  double planning_horizon =
-      10.0;                  ///< m, how far from the vehicle a path is looked for along an axis
-  int max_visited = 100000;  ///< voxels
-  double max_escape = 1.5;   ///< m, way out of a place that is not free
+  double planning_horizon = 10.0;  ///< m, way that is planned voxel by voxel
+  int max_visited = 100000;        ///< voxels
+  double max_escape = 1.5;         ///< m, way out of a place that is not free
 };
 
 /// When to plan, and when to give up. Used with a PlannerConfig.
@@ -33,13 +32,16 @@ struct FlightConfig {
   double goal_tolerance = 0.3;   ///< m
   double waypoint_radius = 1.0;  ///< m, at which a waypoint before the last one is passed
   double max_tracking_error = 1.0;  ///< m, between command and odometry
-  double turn_first_angle =
-      0.8;  ///< rad, of the vehicle's heading to its way; more: it turns first
+  /// Rad between the vehicle's heading and its way; at rest, with more it turns first.
+  double turn_first_angle = 0.5;
+  /// Rad to either side of the vehicle's heading that its sensor sees. It brakes before it gets to
+  /// an unseen place that is farther to the side.
+  double view_azimuth = 0.6;
 };
 
 /// The node around it.
 struct PlannerNodeConfig {
-  std::string map = "/fiimap";    ///< full name of the mapping nodelet
+  std::string map = "fiimap";     ///< name of the mapping nodelet, relative to the namespace
   double command_rate = 100.0;    ///< Hz
   double max_yaw_rate = 1.5;      ///< rad/s
   double odometry_timeout = 0.3;  ///< s

@@ -58,8 +58,11 @@ std::vector<Parameter> spaceParameters(PlannerConfig* c) {
       choiceParameter("unknown", &c->rules.unknown, unseen, "what voxels never seen are taken for"),
       choiceParameter("outside", &c->rules.outside, unseen,
                       "what everything outside of the map's window is taken for"),
+      numberParameter("view_elevation", &c->rules.view_elevation, 0.0, kPi / 2.0, "rad",
+                      "above and below the vehicle's horizon, beyond which voxels never seen are "
+                      "obstacles all the same"),
       numberParameter("planning_horizon", &c->planning_horizon, 0.5, 1000.0, "m",
-                      "how far from the vehicle a path is looked for along each axis"),
+                      "how long a way is planned and checked voxel by voxel"),
       integerParameter("max_visited", &c->max_visited, 100, 10000000, "voxels",
                        "a search ends after looking around from so many voxels"),
       numberParameter("max_escape", &c->max_escape, 0.0, 100.0, "m",
@@ -97,12 +100,15 @@ std::vector<Parameter> flightParameters(FlightConfig* c) {
                       "from where the vehicle is"),
       numberParameter("turn_first_angle", &c->turn_first_angle, 0.0, kPi, "rad",
                       "a vehicle at rest turns first when its way leads more to the side"),
+      numberParameter(
+          "view_azimuth", &c->view_azimuth, 0.0, kPi, "rad",
+          "to either side of the heading; it brakes before unseen places farther aside"),
   };
 }
 
 std::vector<Parameter> nodeParameters(PlannerNodeConfig* c) {
   return {
-      textParameter("map", &c->map, "full name of the mapping nodelet, in the same manager"),
+      textParameter("map", &c->map, "name of the mapping nodelet, in the same manager"),
       numberParameter("command_rate", &c->command_rate, 1.0, 1000.0, "Hz", "rate of commands"),
       numberParameter("max_yaw_rate", &c->max_yaw_rate, 0.01, 100.0, "rad/s",
                       "how fast the commanded heading turns"),
@@ -130,9 +136,8 @@ std::vector<Parameter> plannerParameters(PlannerParameters* parameters) {
 
 std::vector<std::string> configure(const ParameterMap& values, PlannerParameters* parameters) {
   const std::vector<std::string> unknown = applyParameters(values, plannerParameters(parameters));
-  if (parameters->node.map.empty() || parameters->node.map.front() != '/') {
-    throw std::invalid_argument("parameter map = '" + parameters->node.map +
-                                "': must be a full name, like /fiimap");
+  if (parameters->node.map.empty()) {
+    throw std::invalid_argument("parameter map = '': must be the name of the mapping nodelet");
   }
   return unknown;
 }

@@ -84,6 +84,10 @@ std::optional<double> firstCollision(const Trajectory& trajectory, const FlightS
   const double step =
       space.resolution() / kStepsPerVoxel / std::max(kSlowSpeed, trajectory.curve().speedBound());
   Eigen::Vector3d position = trajectory.at(span.from).position;
+  const bool has_start = space.lattice().canIndex(position);
+  // A vehicle that is where the map has an obstacle has to leave that voxel, too.
+  const VoxelIndex start =
+      has_start ? space.lattice().indexOf(position) : VoxelIndex(VoxelIndex::Zero());
   bool escaping = !space.isFree(position);
   double escaped = 0.0;
   // At least one point is looked at, also of a hover that has long begun.
@@ -93,8 +97,9 @@ std::optional<double> firstCollision(const Trajectory& trajectory, const FlightS
     if (escaping) {
       escaped += (next - position).norm();
       escaping = !space.isFree(next);
-      const bool crosses = space.lattice().canIndex(next) &&
-                           (!escaping || space.isCrossable(space.lattice().indexOf(next)));
+      const bool crosses = has_start && space.lattice().canIndex(next) &&
+                           (!escaping || space.lattice().indexOf(next) == start ||
+                            space.isCrossable(space.lattice().indexOf(next)));
       if (!crosses || escaped > max_escape) return time;
     } else if (!space.isLineFree(position, next)) {
       return time;

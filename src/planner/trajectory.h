@@ -54,7 +54,7 @@ struct TimeSpan {
 /// When a trajectory first leaves free space within a time span, s; none: never.
 /// Checked along the voxels of a chain of lines whose corners lie on the trajectory, at most half a
 /// voxel apart. The trajectory may begin in a place that is not free: then it must reach free space
-/// within `max_escape` metres of way, through no occupied voxel, before it ends.
+/// within `max_escape` metres of way, through no occupied voxel but its first, before it ends.
 std::optional<double> firstCollision(const Trajectory& trajectory, const FlightSpace& space,
                                      const TimeSpan& span, double max_escape);
 

@@ -19,6 +19,18 @@ constexpr int kAttempts = 4;
 constexpr double kSlower = 0.65, kMuchSlower = 0.4;  // share of the speed for the next attempt
 constexpr double kSlowest = 0.2;
 
+constexpr double kGuideStep = 0.3;  // m; vehicles need more room than that
+
+/// The last voxel of a path up to a length, voxels.
+std::size_t lastWithin(const std::vector<VoxelIndex>& path, double length) {
+  std::size_t last = 0;
+  for (double way = 0.0; last + 1 < path.size(); ++last) {
+    way += (path[last + 1] - path[last]).cast<double>().norm();
+    if (way > length) break;
+  }
+  return last;
+}
+
 /// Speed towards the beginning of a way.
 double speedAlong(const MotionState& start, const Polyline& way) {
   constexpr double kLook = 0.5;  // m
@@ -37,11 +49,9 @@ Plan TrajectoryPlanner::plan(const FlightSpace& space, const MotionState& start,
   const VoxelLattice& lattice = space.lattice();
   if (!lattice.canIndex(start.position) || !lattice.canIndex(goal)) return plan;
   const VoxelIndex first = lattice.indexOf(start.position);
-  const VoxelBox region = regionAround(space, first);
-  if (!region.contains(first)) return plan;
+  if (space.endsAtWindow() && !space.snapshot().window().contains(first)) return plan;
 
-  const VoxelPath path = search_.find(space, first, lattice.indexOf(goal), region,
-                                      config_.max_escape / space.resolution());
+  const VoxelPath path = findPath(space, first, lattice.indexOf(goal));
   plan.end = path.end;
   plan.visited = path.visited;
   if (path.end == PathEnd::kNowhere) return plan;
@@ -71,6 +81,31 @@ VoxelBox TrajectoryPlanner::regionAround(const FlightSpace& space, const VoxelIn
   const int reach = static_cast<int>(std::ceil(config_.planning_horizon / space.resolution()));
   const VoxelBox region{start.array() - reach, start.array() + reach + 1};
   return space.endsAtWindow() ? region.intersection(space.snapshot().window()) : region;
+}
+
+VoxelPath TrajectoryPlanner::findPath(const FlightSpace& space, const VoxelIndex& start,
+                                      const VoxelIndex& goal) {
+  const double max_escape = config_.max_escape / space.resolution();
+  const VoxelBox region = regionAround(space, start);
+  const int stride = std::max(1, static_cast<int>(std::lround(kGuideStep / space.resolution())));
+  const VoxelPath guide = search_.findRoughly(
+      space, start, goal, space.endsAtWindow() ? space.snapshot().window() : region, stride);
+  const bool is_guided = guide.end == PathEnd::kGoal || guide.end == PathEnd::kBorder;
+  if (!is_guided) {
+    // Perhaps there is a way that is narrower than the guide's cubes.
+    VoxelPath direct = search_.find(space, start, goal, region, max_escape);
+    const bool leads_on = direct.end == PathEnd::kGoal || direct.end == PathEnd::kBorder;
+    if (leads_on || guide.voxels.size() < 2) return direct;
+  }
+  const std::size_t last = lastWithin(guide.voxels, config_.planning_horizon / space.resolution());
+  const bool to_goal = guide.end == PathEnd::kGoal && last + 1 == guide.voxels.size();
+  VoxelPath path =
+      search_.find(space, start, to_goal ? goal : guide.voxels[last], region, max_escape);
+  if (path.end == PathEnd::kGoal && !to_goal) {
+    path.end = is_guided ? PathEnd::kBorder : PathEnd::kNearest;
+  }
+  path.visited += guide.visited;
+  return path;
 }
 
 Bspline TrajectoryPlanner::along(const Polyline& way, const SpeedProfile& profile,

@@ -35,6 +35,9 @@ class TrajectoryPlanner {
 
  private:
   VoxelBox regionAround(const FlightSpace& space, const VoxelIndex& start) const;
+  /// The first planning_horizon of the way to a goal: a rough search of the whole window says where
+  /// it leads, so that no dead end of the window holds the vehicle, and a fine one finds it.
+  VoxelPath findPath(const FlightSpace& space, const VoxelIndex& start, const VoxelIndex& goal);
   /// Control points along a way, from a state to rest, at the times of a speed profile.
   Bspline along(const Polyline& way, const SpeedProfile& profile, const MotionState& start) const;
   Bspline guideAlong(const Polyline& way, const MotionState& start, double speed_factor) const;

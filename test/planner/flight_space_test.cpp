@@ -1,5 +1,6 @@
 #include "flight_space.h"
 
+#include <cmath>
 #include <limits>
 
 #include "planner_map.h"
@@ -45,6 +46,29 @@ TEST_F(FlightSpaceTest, WhatIsNotSeenIsWhatTheUserChose) {
       }
     }
   }
+}
+
+TEST(FlightSpaceViewTest, UnseenPlacesAreFreeWhereTheVehicleLooks) {
+  test::Random random(541);
+  test::PlannerMap map({30, 30, 30}, kResolution, 0.0);
+  map.forget(map.window());
+  for (int round = 0; round < 200; ++round) {
+    SCOPED_TRACE("seed 541, round " + std::to_string(round));
+    FlightRules rules;
+    rules.view_elevation = test::uniformReal(random, 0.0, 1.5);
+    const Eigen::Vector3d vehicle =
+        Eigen::Vector3d::NullaryExpr([&] { return test::uniformReal(random, -7.0, 7.0); });
+    const FlightSpace space = map.space(rules, vehicle);
+    const VoxelIndex v = test::uniformVoxel(random, map.window());
+    const Eigen::Vector3d offset = space.lattice().centerOf(v) - vehicle;
+    const double climb = std::abs(offset.z()) - 1.5 * kResolution;  // less counts as level
+    const double elevation = std::atan2(climb, offset.head<2>().norm());
+    EXPECT_EQ(space.isFree(v), climb <= 0.0 || elevation <= rules.view_elevation);
+  }
+  FlightRules everywhere;
+  everywhere.view_elevation = M_PI / 2.0;
+  EXPECT_TRUE(map.space(everywhere).isFree(VoxelIndex(0, 0, 12)));
+  EXPECT_FALSE(map.space().isFree(VoxelIndex(0, 0, 12)));
 }
 
 TEST_F(FlightSpaceTest, AVoxelThatAWallCutsIsNotFree) {

@@ -1,5 +1,6 @@
 #include "flight.h"
 
+#include <cmath>
 #include <limits>
 
 #include "planner_map.h"
@@ -249,6 +250,37 @@ TEST_F(FlightTest, TurnsBeforeItFliesBackwards) {
   ASSERT_TRUE(flight_.flown().current->heading());
   EXPECT_NEAR(*flight_.flown().current->heading(), 0.0, 0.3);
   EXPECT_TRUE(flyUntil(FlightState::kFlying));
+}
+
+TEST_F(FlightTest, BrakesAndTurnsBeforeItGetsToWhereItDidNotLook) {
+  seen_.forget({{-130, 8, -15}, {130, 60, 15}});
+  flight_.setGoals({{-5.0, 0.0, 0.0}, {-5.0, 5.0, 0.0}});
+  bool braked = false, turned = false;
+  flyUntil([&] {
+    const FlightStatus& status = flight_.status();
+    braked = braked || status.state == FlightState::kBraking;
+    turned = turned || (braked && status.state == FlightState::kHovering);
+    const bool unseen = vehicle_.position.y() > 0.8;
+    EXPECT_TRUE(!unseen || std::abs(vehicle_.yaw) > 0.5) << "flew where it did not look";
+    return status.state == FlightState::kGoalReached || ::testing::Test::HasFailure();
+  });
+  EXPECT_TRUE(braked);
+  EXPECT_TRUE(turned);
+  EXPECT_EQ(flight_.status().state, FlightState::kGoalReached) << flight_.status().reason;
+}
+
+TEST_F(FlightTest, GetsAwayFromWhereTheMapHasAnObstacleNow) {
+  flight_.setGoals({{11.0, 0.0, 0.0}});
+  step();
+  ASSERT_TRUE(flyUntil([&] { return vehicle_.position.x() > -5.0; }));
+  map_works_ = false;
+  map_trouble_ = "gone";
+  ASSERT_TRUE(flyUntil(FlightState::kWaiting));
+  map_works_ = true;
+  map_trouble_.clear();
+  const VoxelIndex here = truth_.space().lattice().indexOf(vehicle_.position);
+  build({here, here + VoxelIndex::Ones()});
+  EXPECT_TRUE(flyUntil(FlightState::kGoalReached)) << flight_.status().reason;
 }
 
 TEST_F(FlightTest, ABlockedGoalIsApproached) {

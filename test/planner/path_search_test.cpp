@@ -193,6 +193,47 @@ TEST(PathSearchTest, LeavesInflatedSpaceByTheShortestWayThroughNoOccupiedVoxel) 
   EXPECT_GT(escaped, 30);
 }
 
+TEST(PathSearchTest, ARoughWayIsAsShortAsDijkstraOverTheMiddlesOfCubes) {
+  test::Random random(504);
+  PathSearch search(kEnough);
+  constexpr int kStride = 3;
+  const auto middleOf = [=](const VoxelIndex& cube) -> VoxelIndex {
+    return (cube * kStride).array() + 1;
+  };
+  // Whole cubes of the window [-21, 21) x [-21, 21) x [-9, 9).
+  const VoxelBox cubes{{-7, -7, -3}, {7, 7, 3}};
+  int reached = 0, unreachable = 0;
+  for (int round = 0; round < 60; ++round) {
+    SCOPED_TRACE("seed 504, round " + std::to_string(round));
+    test::PlannerMap map({42, 42, 18}, kResolution, 0.2);
+    for (int i = 0; i < 60 * (round % 6); ++i) map.occupy(test::uniformVoxel(random, map.window()));
+    const FlightSpace space = map.space();
+    const VoxelIndex first = test::uniformVoxel(random, cubes);
+    const VoxelIndex last = test::uniformVoxel(random, cubes);
+    const VoxelIndex goal = middleOf(last) + VoxelIndex(1, -1, 0);
+    const auto all = distances(first, cubes, [&](const VoxelIndex& cube) {
+      return space.isFree(cube == last ? goal : middleOf(cube));
+    });
+    const VoxelPath path = search.findRoughly(space, middleOf(first), goal, map.window(), kStride);
+    ASSERT_FALSE(path.voxels.empty());
+    EXPECT_EQ(path.voxels.front(), middleOf(first));
+    for (std::size_t i = 1; i < path.voxels.size(); ++i) {
+      EXPECT_EQ((path.voxels[i] - path.voxels[i - 1]).cwiseAbs().maxCoeff(), kStride);
+    }
+    const auto found = all.find(last);
+    EXPECT_EQ(path.end == PathEnd::kGoal, found != all.end());
+    if (found == all.end()) {
+      ++unreachable;
+      continue;
+    }
+    EXPECT_EQ(path.voxels.back(), middleOf(last));
+    EXPECT_EQ(path.cost, kStride * found->second);
+    ++reached;
+  }
+  EXPECT_GT(reached, 30);
+  EXPECT_GT(unreachable, 3);
+}
+
 TEST(PathSearchTest, DoesNotCutCorners) {
   test::PlannerMap map({5, 5, 1}, kResolution, 0.0);
   map.occupy(VoxelIndex(0, 1, 0));

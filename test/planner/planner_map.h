@@ -54,7 +54,10 @@ class PlannerMap {
     ++info_.sequence;
     return std::make_shared<const Snapshot>(&grid_, info_);
   }
-  FlightSpace space(const FlightRules& rules = {}) { return {snapshot(), rules}; }
+  FlightSpace space(const FlightRules& rules = {},
+                    const Eigen::Vector3d& vehicle_W = Eigen::Vector3d::Zero()) {
+    return {snapshot(), rules, vehicle_W};
+  }
 
  private:
   double resolution_;

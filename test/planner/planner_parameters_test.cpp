@@ -68,8 +68,7 @@ TEST(PlannerParametersTest, RefusalsNameParameterValueAndRange) {
   EXPECT_EQ(refusal("max_speed", "0"),
             "parameter max_speed = '0': must be a number in [0.05, 50] m/s");
   EXPECT_EQ(refusal("unknown", "maybe"), "parameter unknown = 'maybe': must be obstacle or free");
-  EXPECT_EQ(refusal("map", "fiimap"),
-            "parameter map = 'fiimap': must be a full name, like /fiimap");
+  EXPECT_EQ(refusal("map", ""), "parameter map = '': must be the name of the mapping nodelet");
   for (const std::string bad : {"1 2", "1 2 x", "1 2 nan", "1 2 1e9", "[1, 2, 3, 4]"}) {
     EXPECT_NE(refusal("waypoints", bad).find("parameter waypoints = '" + bad + "': must be"),
               std::string::npos)

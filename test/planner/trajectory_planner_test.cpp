@@ -107,6 +107,46 @@ TEST(TrajectoryPlannerReplanTest, GoesOnFromAnyMomentOfATrajectory) {
   EXPECT_GE(plans, wanted * 8 / 10);
 }
 
+TEST(TrajectoryPlannerGuideTest, LeavesADeadEndThatIsDeeperThanTheHorizon) {
+  PlannerConfig config;
+  config.planning_horizon = 3.0;
+  TrajectoryPlanner planner(config);
+  // A pocket of 12 x 4 m that is open at the side away from the goal.
+  test::PlannerMap map({300, 200, 30}, kResolution, 0.3);
+  map.occupy(VoxelBox{{60, -20, -15}, {62, 20, 15}});
+  map.occupy(VoxelBox{{-60, -20, -15}, {60, -18, 15}});
+  map.occupy(VoxelBox{{-60, 18, -15}, {60, 20, 15}});
+  const FlightSpace space = map.space();
+  MotionState state;
+  state.position = {5.0, 0.05, 0.05};
+  const Eigen::Vector3d goal(9.0, 0.0, 0.0);
+  Plan plan;
+  // Each plan leads on along the way by about the horizon.
+  for (int i = 0; i < 20 && plan.end != PathEnd::kGoal; ++i) {
+    plan = planner.plan(space, state, 0.0, goal);
+    ASSERT_TRUE(plan.trajectory);
+    expectFlyable(*plan.trajectory, space, config, state);
+    state.position = plan.trajectory->at(plan.trajectory->endTime()).position;
+  }
+  EXPECT_EQ(plan.end, PathEnd::kGoal);
+}
+
+TEST(TrajectoryPlannerGuideTest, FindsAGapThatIsNarrowerThanTheGuide) {
+  const PlannerConfig config;
+  TrajectoryPlanner planner(config);
+  test::PlannerMap map({120, 120, 10}, kResolution, 0.0);
+  for (int gap = -4; gap < 5; ++gap) {
+    SCOPED_TRACE("gap at " + std::to_string(gap));
+    map.clear();
+    map.occupy(VoxelBox{{0, -60, -5}, {2, gap, 5}});
+    map.occupy(VoxelBox{{0, gap + 1, -5}, {2, 60, 5}});
+    MotionState start;
+    start.position = {-3.0, 0.05, 0.05};
+    const Plan plan = planner.plan(map.space(), start, 0.0, {3.0, 0.05, 0.05});
+    EXPECT_EQ(plan.end, PathEnd::kGoal);
+  }
+}
+
 TEST(TrajectoryPlannerStartTest, GetsOutOfInflatedSpace) {
   const PlannerConfig config;
   TrajectoryPlanner planner(config);

@@ -7,7 +7,8 @@ import rostest
 from std_srvs.srv import Trigger
 
 import make_bag_variants
-from fiimap.srv import SaveMap
+from geometry_msgs.msg import Point
+from fiimap.srv import GetBox, GetBoxResponse, SaveMap
 from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, wait_for
 from voxels import voxels_at, voxels_of_cloud, voxels_of_pcd
 
@@ -15,6 +16,7 @@ FORM = ('points', 'odometry')
 RESOLUTION = 0.1
 PARAMETERS = {**PATIENT_QUEUES, 'sensor': FORM[0], 'resolution': RESOLUTION}
 SCANS = 20
+BOX_REACH = 20  # voxels
 
 
 class ServicesTest(MapTest):
@@ -109,6 +111,38 @@ class ServicesTest(MapTest):
     def test_save_map_refuses_before_the_first_scan(self):
         self.start_map({**PARAMETERS, 'save_directory': str(self.target)})
         self.assert_refused(self.save('room'), 'no map yet')
+
+    def test_get_box_tells_what_is_published(self):
+        listener = self.start_and_play()
+        occupied, inflated = (voxels_of_cloud(cloud, RESOLUTION)
+                              for cloud in listener.wait_for_clouds())
+        # Around an occupied voxel in the middle of the others.
+        middle = sorted(map(tuple, occupied))[len(occupied) // 2]
+        low, high = (Point(*(RESOLUTION * (c + 0.5 + side * BOX_REACH) for c in middle))
+                     for side in (-1, 1))
+        box = self.call('get_box', GetBox, low, high)
+        self.assertTrue(box.success, box.message)
+        first = [round(c / RESOLUTION) for c in (box.origin.x, box.origin.y, box.origin.z)]
+        sizes = (box.size_x, box.size_y, box.size_z)
+        self.assertEqual(sizes, 3 * (2 * BOX_REACH + 1,))
+        self.assertEqual(len(box.voxels), sizes[0] * sizes[1] * sizes[2])
+        found = (set(), set())
+        for i, state in enumerate(box.voxels):
+            steps = (i // (sizes[1] * sizes[2]), i // sizes[2] % sizes[1], i % sizes[2])
+            voxel = tuple(f + s for f, s in zip(first, steps))
+            for layer, value in zip(found, (state % 4, state // 4)):
+                if value == GetBoxResponse.OCCUPIED:
+                    layer.add(voxel)
+        inside = [{v for v in map(tuple, voxels)
+                   if all(f <= c < f + s for c, f, s in zip(v, first, sizes))}
+                  for voxels in (occupied, inflated)]
+        self.assertGreater(len(inside[0]), 0)
+        self.assertEqual(found[0], inside[0])
+        self.assertEqual(found[1], inside[1])
+
+    def test_get_box_refuses_before_the_first_scan_and_what_is_no_box(self):
+        self.start_map(PARAMETERS)
+        self.assertIn('no map yet', self.call('get_box', GetBox, Point(), Point()).message)
 
     def test_reset_forgets_and_mapping_goes_on(self):
         listener = self.start_and_play(save_directory=str(self.target))

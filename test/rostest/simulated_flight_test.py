@@ -65,7 +65,8 @@ class SimulatedFlightTest(ManagerTest):
         wait_for(listener.is_connected, 'the map')
         planner = self.load('fiimap/PlannerNodelet', 'planner', PLANNER)
         simulator = self.load('fiimap/SimulatorNodelet', 'simulator', {**SIMULATOR, 'seed': seed},
-                              'map_statistics:=/map/statistics')
+                              'map_statistics:=/map/statistics',
+                              'planner_status:=/planner/status')
         self.loaders += [planner, simulator]
         wait_for(lambda: self.truth and self.state() == PlannerStatus.FLYING, self.describe)
 

@@ -33,6 +33,21 @@ TEST(ClosedLoopTest, ReachesTheGoalWithoutCollision) {
   EXPECT_EQ(outcome.planning_ms.size(), outcome.planner.plans + outcome.planner.failures);
 }
 
+TEST(ClosedLoopTest, FindsItsWayOutOfDeadEnds) {
+  FlightSettings settings = shortFlight();
+  settings.time_limit = 120.0;
+  applySetting("simulator.world=maze", &settings);
+  applySetting("simulator.maze_cells=4", &settings);
+  for (const char* seed : {"1", "4"}) {
+    SCOPED_TRACE(std::string("seed ") + seed);
+    applySetting(std::string("simulator.seed=") + seed, &settings);
+    const FlightOutcome outcome = flyClosedLoop(settings);
+    EXPECT_TRUE(outcome.reached);
+    EXPECT_EQ(outcome.truth.collisions, 0u);
+    EXPECT_GT(outcome.truth.least_clearance, 0.3);
+  }
+}
+
 TEST(ClosedLoopTest, TheSameSettingsGiveTheSameFlight) {
   const FlightOutcome first = flyClosedLoop(shortFlight());
   const FlightOutcome second = flyClosedLoop(shortFlight());

@@ -37,6 +37,7 @@ TEST(PacerTest, WaitsForNobodyWhoWasNeverHeardOf) {
 
 TEST(PacerTest, WaitsForEachFollower) {
   Pacer pacer(kFast, kMaxLead, false);
+  pacer.hear(Pacer::Follower::kCommands, 1.15);
   pacer.hear(Pacer::Follower::kPlanner, 1.0);
   pacer.hear(Pacer::Follower::kMap, 1.0);
   pacer.waitFor(1.09);

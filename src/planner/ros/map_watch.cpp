@@ -12,7 +12,14 @@ MapWatch::MapWatch(ros::NodeHandle node, const std::string& map, double timeout)
 }
 
 void MapWatch::onMap(const MapHandleMessage::ConstPtr& message) {
+  const double now = ros::Time::now().toSec();
   const std::lock_guard<std::mutex> lock(mutex_);
+  // Of two nodelets of this name, the one that goes may be heard last. It does not count while the
+  // other one works.
+  const bool is_other = handle_ && message->handle != handle_;
+  const bool works = newest_ && std::abs(now - newest_time_) <= timeout_;
+  if (is_other && works && message->info.header.stamp < stamp_) return;
+  stamp_ = message->info.header.stamp;
   frame_ = message->info.header.frame_id;
   // Null when the map is in another process.
   if (message->handle) handle_ = message->handle;

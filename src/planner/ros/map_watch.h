@@ -39,6 +39,7 @@ class MapWatch {
   double timeout_;
   mutable std::mutex mutex_;
   std::string frame_;
+  ros::Time stamp_;  ///< of the newest message
   std::shared_ptr<const MapHandle> handle_;
   std::shared_ptr<const Snapshot> newest_;
   double newest_time_ = 0.0;  ///< when it was new, s

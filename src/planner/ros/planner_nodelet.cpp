@@ -27,7 +27,8 @@ void PlannerNodelet::onInit() {
                                      [] { return ros::Time::now().toSec(); });
   if (!node.waypoints.empty()) flight_->setGoals(node.waypoints);
   advertise();
-  map_ = std::make_unique<MapWatch>(getNodeHandle(), node.map, node.map_timeout);
+  map_ = std::make_unique<MapWatch>(getNodeHandle(), getNodeHandle().resolveName(node.map),
+                                    node.map_timeout);
   vehicle_ = std::make_unique<VehicleWatch>(getNodeHandle(), node.odometry_timeout);
   command_ = std::make_unique<CommandThread>(getNodeHandle(), node.command_rate, node.max_yaw_rate);
   goal_subscriber_ = getNodeHandle().subscribe("goal", kQueue, &PlannerNodelet::onGoal, this);

@@ -13,9 +13,13 @@ VehicleWatch::VehicleWatch(ros::NodeHandle node, double timeout) : timeout_(time
 }
 
 void VehicleWatch::onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
+  const double now = ros::Time::now().toSec();
   const std::lock_guard<std::mutex> lock(mutex_);
+  // An older message is of no use while newer ones come; later it tells that time jumped back.
+  const bool is_older = newest_ && message->header.stamp < newest_->header.stamp;
+  if (is_older && std::abs(now - newest_time_) <= timeout_ && now >= newest_time_) return;
   newest_ = message;
-  newest_time_ = ros::Time::now().toSec();
+  newest_time_ = now;
 }
 
 VehicleWatch::View VehicleWatch::look(double time, const std::string& map_frame) const {

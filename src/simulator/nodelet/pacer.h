@@ -13,7 +13,7 @@ namespace fiimap::sim {
 class Pacer {
  public:
   /// Who may be waited for.
-  enum class Follower { kPlanner, kMap };
+  enum class Follower { kCommands, kPlanner, kMap };
 
   /// \param real_time_factor simulated seconds per second; 0: as fast as possible.
   /// \param max_lead how far, s, time may be ahead of each follower that was heard of; 0: any.
@@ -50,7 +50,7 @@ class Pacer {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::array<std::optional<Progress>, 2> progress_;
+  std::array<std::optional<Progress>, 3> progress_;  ///< by Follower
   bool stopping_ = false;
 };
 

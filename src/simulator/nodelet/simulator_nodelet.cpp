@@ -13,7 +13,7 @@ namespace fiimap::sim {
 namespace {
 
 constexpr int kCommandQueue = 10;
-constexpr int kMapQueue = 10;
+constexpr int kFollowerQueue = 10;
 constexpr double kWarningPeriod = 5.0;  // s
 constexpr double kMaxDelay = 0.1;       // s behind the wall clock, then frames are left out
 
@@ -52,7 +52,10 @@ void SimulatorNodelet::onInit() {
                                 ros::TransportHints().tcpNoDelay());
   if (config_.max_lead > 0.0) {
     map_subscriber_ =
-        getNodeHandle().subscribe("map_statistics", kMapQueue, &SimulatorNodelet::onMap, this);
+        getNodeHandle().subscribe("map_statistics", kFollowerQueue, &SimulatorNodelet::onMap, this);
+    // Commands go on while a plan takes its time: they do not tell how far the planner is.
+    planner_subscriber_ = getNodeHandle().subscribe("planner_status", kFollowerQueue,
+                                                    &SimulatorNodelet::onPlanner, this);
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -61,6 +64,7 @@ SimulatorNodelet::~SimulatorNodelet() {
   stopping_ = true;
   command_subscriber_.shutdown();
   map_subscriber_.shutdown();
+  planner_subscriber_.shutdown();
   if (pacer_) pacer_->stop();
   if (thread_.joinable()) thread_.join();
 }
@@ -84,7 +88,11 @@ void SimulatorNodelet::onCommand(
     NODELET_WARN_THROTTLE(kWarningPeriod, "a command was refused: %s", error.what());
     return;
   }
-  pacer_->hear(Pacer::Follower::kPlanner, time);
+  pacer_->hear(Pacer::Follower::kCommands, time);
+}
+
+void SimulatorNodelet::onPlanner(const PlannerStatus::ConstPtr& status) {
+  pacer_->hear(Pacer::Follower::kPlanner, publisher_->timeOf(status->header.stamp));
 }
 
 void SimulatorNodelet::onMap(const Statistics::ConstPtr& statistics) {

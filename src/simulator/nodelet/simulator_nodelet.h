@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include <fiimap/PlannerStatus.h>
 #include <fiimap/Statistics.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
@@ -31,6 +32,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void configureFromParameters();
   void onCommand(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message);
   void onMap(const Statistics::ConstPtr& statistics);
+  void onPlanner(const PlannerStatus::ConstPtr& status);
 
   // On the simulating thread.
   void run();
@@ -52,6 +54,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   std::atomic<bool> stopping_{false};
   ros::Subscriber command_subscriber_;
   ros::Subscriber map_subscriber_;
+  ros::Subscriber planner_subscriber_;
   std::thread thread_;
 };
 
