@@ -16,7 +16,7 @@ std::size_t HitCover::dropSlivers(const RangeData& scan, const RayEnds& ends,
                                   ScanMask* mask) {
   // A face at a distance of d voxel edges fills 1 / d^2 steradian.
   const double least = min_cover_ * scan.returns_per_steradian;
-  if (least == 0.0) return 0;
+  if (!(least > 0.0)) return 0;
   const double one_suffices = (std::sqrt(least) + kHalfDiagonal) * resolution;  // m
   listPassed(ends, mask->column(ScanMask::kFree, 0, 0));
   listNear(ends, scan.returns, static_cast<float>(one_suffices * one_suffices));

@@ -65,7 +65,7 @@ class BadInputTest(unittest.TestCase):
         whole = COW.read_bytes()
         for size in (len(whole) // 2, len(whole) - 100):
             self.bag.write_bytes(whole[:size])
-            self.refused('cannot read the bag .*recording.bag', 'cut off')
+            self.refused('the bag .*recording.bag is damaged', 'longer than the file')
 
     def test_no_bag(self):
         self.bag.write_text('This is no bag.')

@@ -178,7 +178,7 @@ TEST(TruthCommandTest, ComparesTheSampleFlight) {
   EXPECT_GT(row.at("half"), 0.0);
   EXPECT_LT(row.at("half"), 0.06);
   EXPECT_GE(row.at("recall_5"), 0.995);
-  EXPECT_GT(row.at("recall_any"), 0.95);
+  EXPECT_GT(row.at("recall_any"), 0.94);
   EXPECT_GT(row.at("cells_any"), row.at("cells_5"));
 }
 
