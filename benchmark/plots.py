@@ -8,6 +8,7 @@ from matplotlib import pyplot  # noqa: E402  the backend must be chosen first
 MILLISECONDS = 1e-3  # per microsecond
 SIZE = (6, 4)        # inches
 DPI = 100
+DASHES = ('-', '--', ':', '-.')
 
 
 def figure(title, x_label, y_label):
@@ -20,17 +21,31 @@ def figure(title, x_label, y_label):
 
 
 def save(fig, path):
-    fig.axes[0].legend()
-    fig.tight_layout()
-    fig.savefig(path, dpi=DPI)
+    fig.axes[0].legend(loc='upper left', bbox_to_anchor=(1.0, 1.0), frameon=False)
+    fig.savefig(path, dpi=DPI, bbox_inches='tight')
     pyplot.close(fig)
 
 
-def lines(axes, points, **style):
-    """points: {label: [(x, y)]}; a line each, or nothing where there are none."""
+def lines(axes, points):
+    """points: {label: [(x, y)]}; a line each, or nothing where there are none. Of a label
+    'recording what', each recording has its dashes and each what its colour."""
+    recordings, colours = [], []
     for label, pairs in points.items():
+        recording, _, what = label.rpartition(' ')
+        for seen, name in ((recordings, recording), (colours, what)):
+            if name not in seen:
+                seen.append(name)
         pairs = sorted(pairs)
-        axes.plot([x for x, _ in pairs], [y for _, y in pairs], marker='o', label=label, **style)
+        axes.plot([x for x, _ in pairs], [y for _, y in pairs], marker='o', label=label,
+                  color=f'C{colours.index(what)}', linestyle=DASHES[recordings.index(recording)])
+
+
+def resolution_ticks(axes, points):
+    """Writes the resolutions that were measured at a logarithmic axis."""
+    ticks = sorted({x for pairs in points.values() for x, _ in pairs})
+    axes.set_xticks(ticks)
+    axes.set_xticklabels([f'{tick:g}' for tick in ticks])
+    axes.minorticks_off()
 
 
 def draw_growth(samples, folder, key, x_label):
@@ -72,6 +87,7 @@ def draw_pipelines(samples, folder):
     lines(axes, points)
     axes.set_xscale('log')
     axes.set_yscale('log')
+    resolution_ticks(axes, points)
     save(fig, folder / 'pipelines.png')
 
 
