@@ -5,11 +5,13 @@ import os
 import pathlib
 import shutil
 import sys
+import threading
 
 from steps import Step, StepError, write_whole
 
 VERIFY_EVERY = 50           # scans
 COMPARE_RESOLUTION = 0.2    # m: the paper's Figures 7 and 8
+DRAWING = threading.Lock()  # matplotlib reads formulas in one thread at a time
 
 
 def parse(description):
@@ -98,9 +100,10 @@ def report_on(bag, name, program, arguments):
         if new_folder and done == 0:
             shutil.rmtree(folder, ignore_errors=True)
         raise
-    import page  # here, because matplotlib takes a second, which bad input need not wait for
-    write_whole(arguments.output / f'{name}.html',
-                page.render(name, bag, folder, steps, arguments.jobs))
+    with DRAWING:
+        import page  # here, because matplotlib takes a second, which bad input need not wait for
+        write_whole(arguments.output / f'{name}.html',
+                    page.render(name, bag, folder, steps, arguments.jobs))
 
 
 def names_of(bags):
