@@ -111,8 +111,9 @@ def accuracy_figure(accuracy, paper):
     figure, axes = new_figure(title, '', 'share', WIDE)
     axes.bar(names, [r['hit_rate_mean'] for r in rows], yerr=[r['hit_rate_std'] for r in rows],
              capsize=4, label='hit')
-    axes.bar(paper_names, [p['hit'] for p in theirs], yerr=[p['std'] for p in theirs], capsize=4,
-             color='0.7', label="hit, the paper's corridor")
+    if theirs:
+        axes.bar(paper_names, [p['hit'] for p in theirs], yerr=[p['std'] for p in theirs],
+                 capsize=4, color='0.7', label="hit, the paper's corridor")
     axes.plot(names, [r['blocked_rate_mean'] for r in rows], 'o', color='tab:red', label='blocked')
     axes.tick_params(axis='x', labelsize='x-small')
     axes.set_ylim(0, 1.05)
