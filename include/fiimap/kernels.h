@@ -79,9 +79,10 @@ struct EndPoints {
 };
 
 /// Voxels where rays end. Rays that leave the box end in the last voxel of it that they cross; they
-/// have kLeavesBox in `z`.
+/// have kLeavesBox in `z`. Those that never enter it end nowhere: `z` is kMissesBox.
 struct RayEnds {
   static constexpr std::int32_t kLeavesBox = 1 << 24;  ///< more than any height
+  static constexpr std::int32_t kMissesBox = 2 * kLeavesBox;
   std::vector<std::int32_t> column;                    ///< offset of its lowest word
   std::vector<std::int32_t> z;
   /// The points first[k] to first[k + 1] - 1 end in voxel k.

@@ -73,6 +73,7 @@ RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* m
 void RayCaster::markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count) {
   listEnds(ends, *mask);
   for (int k = 0; k < ends_.size; ++k) {
+    if (ends_.z[k] == RayEnds::kMissesBox) continue;
     const bool leaves = ends_.z[k] >= RayEnds::kLeavesBox;
     const bool is_return = are_returns && !leaves;
     const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
@@ -112,15 +113,14 @@ void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask) {
   const VoxelIndex& size = mask.size();
   const Eigen::Vector3f end = origin_ + ray;
   VoxelIndex v = end.cast<int>();  // the floor, inside the box
-  std::int32_t leaves = 0;
+  std::int32_t flag = 0;
   if (!((end.array() >= 0.0f).all() && (end.array() < size.cast<float>().array()).all())) {
     const Span span = clipToBox(origin_, ray, size);
-    if (span.empty()) return;
-    v = nearestVoxel(origin_ + span.exit * ray, size);
-    leaves = RayEnds::kLeavesBox;
+    flag = span.empty() ? RayEnds::kMissesBox : RayEnds::kLeavesBox;
+    v = span.empty() ? VoxelIndex::Zero() : nearestVoxel(origin_ + span.exit * ray, size);
   }
   ends_.column[ends_.size] = mask.columnOffset(v.x(), v.y());
-  ends_.z[ends_.size] = v.z() + leaves;
+  ends_.z[ends_.size] = v.z() + flag;
   ends_.first[ends_.size] = ends_.size;
   ++ends_.size;
 }

@@ -18,9 +18,13 @@ const VoxelBox kBox{{-3, -20, -40}, {25, 22, 60}};
 /// Rows of neighbouring returns, in voxels: a far wall, and in front of it slivers that end
 /// anywhere within a voxel. Coordinates are odd thirty-seconds: no rounding, and no point on a
 /// face.
-RangeData rows(test::Random* random) {
+/// From a sensor before the box, some rays look away from it.
+RangeData rows(test::Random* random, bool before_box) {
   RangeData scan;
-  scan.origin = Eigen::Vector3d(0.5, 0.5, 0.5) * kResolution;
+  scan.origin = Eigen::Vector3d(before_box ? -7.5 : 0.5, 0.5, 0.5) * kResolution;
+  for (int i = 0; before_box && i < 500; ++i) {
+    scan.returns.push_back((Eigen::Vector3d(-10.0, i / 4.0, 3.0) * kResolution).cast<float>());
+  }
   scan.returns_per_steradian = test::uniformReal(*random, 500.0, 4000.0);
   for (int row = 0; row < 60; ++row) {
     const double height = (2 * test::uniformInt(*random, -160, 160) + 1) / 32.0;
@@ -37,10 +41,10 @@ RangeData rows(test::Random* random) {
 TEST(HitCoverTest, DropsFreeVoxelsThatReturnsCoverTooLittle) {
   const VoxelLattice lattice(kResolution);
   std::size_t dropped = 0, kept = 0;
-  for (int seed = 0; seed < 30; ++seed) {
+  for (int seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::Random random(seed);
-    const RangeData scan = rows(&random);
+    const RangeData scan = rows(&random, seed % 2 == 1);
     const double min_cover = test::uniformReal(random, 0.05, 0.5);
     std::map<VoxelIndex, int, test::VoxelLess> returns;
     for (const Eigen::Vector3f& end : scan.returns) {
@@ -69,7 +73,7 @@ TEST(HitCoverTest, DropsFreeVoxelsThatReturnsCoverTooLittle) {
 
 TEST(HitCoverTest, KeepsAllHitsOfAScanOfUnknownDensity) {
   test::Random random(1);
-  RangeData scan = rows(&random);
+  RangeData scan = rows(&random, false);
   scan.returns_per_steradian = 0.0;
   const VoxelLattice lattice(kResolution);
   ScanMask all, covered;
