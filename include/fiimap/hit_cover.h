@@ -39,9 +39,9 @@ class HitCover {
     std::int32_t returns;
   };
 
-  void listPassed(const RayEnds& ends, const std::uint64_t* free);
+  void listPassed(const RayEnds& ends, const ScanMask& mask);
   void listNear(const RayEnds& ends, const PointList& returns, float max_length_2);
-  void countReturns(const RayEnds& ends);
+  void countReturns(const RayEnds& ends, const ScanMask& mask);
   Voxel& find(std::int32_t word, std::int32_t bit);
 
   double min_cover_;

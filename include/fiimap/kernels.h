@@ -11,15 +11,16 @@ namespace fiimap {
 
 /// A ray's way over the columns of a box, in slabs: between two borders of its major axis, along
 /// which it advances faster, it crosses at most one border of its minor axis.
-/// Lengths are voxel edges; t is 0 at the ray's origin and 1 at its end.
+/// Lengths are voxel edges; t is the place on the ray, in any unit, 0 at its origin.
 struct ColumnLine {
   int slabs;              ///< columns along the major axis, >= 1
   float start_t;          ///< where the ray enters the box
+  float end_t;            ///< where it ends
   float first_border;     ///< distance along the major axis from the origin to the border behind it
   float major_step;       ///< +1 or -1
   float t_per_major;      ///< t per distance along the major axis; 0 when there is one slab
   float minor_origin;     ///< of the ray, in the box
-  float minor_direction;  ///< from origin to end
+  float minor_direction;  ///< along the minor axis per t
   float minor_border;     ///< from a cell's low border to the one that the ray leaves by, from
                           ///< the origin: 0 or 1, less minor_origin
   float t_per_minor;
@@ -34,21 +35,22 @@ struct ColumnLine {
 struct ColumnWalk {
   std::vector<std::int32_t> column;  ///< offset of its lowest word
   std::vector<float> t;
+  std::vector<std::int32_t> first_of_slab;  ///< index in `column`
   int size = 0;
 
   /// Makes room for what a kernel may write.
   void reserve(int slabs);
 };
 
-/// Neighbouring rays to one end column, and the part of its walk that they go together: in each
-/// column they touch the voxels from origin_z + rise_low t to origin_z + rise_high t.
-struct FanPart {
+/// Runs of neighbouring rays, and a part of the columns that they cross together: in each column a
+/// run touches the voxels from where its lowest ray is lowest to where its highest is highest.
+struct RayRuns {
   const std::int32_t* column;  ///< offset of its lowest word
-  const float* t_low;          ///< per column, where the lowest ray is lowest
-  const float* t_high;         ///< per column, where the highest ray is highest
+  const float* t;              ///< rays are in column k from t[k] to t[k + 1]
   int columns;
-  float origin_z, rise_low, rise_high;  ///< voxel edges
-  float lowest, highest;                ///< bounds of what all columns touch
+  float origin_z;
+  const float *rise_low, *rise_high;  ///< per run, of its lowest and highest ray: voxel edges per t
+  int runs;
 };
 
 /// Samples of one row of a depth image, and the parts of their rays at unit depth (world axes): the
@@ -67,27 +69,49 @@ struct RowCount {
   int others = 0;  ///< listed
 };
 
-/// Points relative to the rays' origin, metres, and the box in which their rays end: whose columns,
-/// x-major, have `words` 64-bit words each. The origin lies in the box.
+/// Points relative to the rays' origin, metres, and the box in which their rays end. The origin
+/// lies in the box.
 struct EndPoints {
   const float *x, *y, *z;
   int count;
   float to_voxels;
   float origin[3];  ///< voxel edges, in the box
   std::int32_t size[3];
-  int words;
 };
 
-/// Voxels where rays end. Rays that leave the box end in the last voxel of it that they cross; they
-/// have kLeavesBox in `z`. Those that never enter it end nowhere: `z` is kMissesBox.
+/// Voxels of the box where rays end. Rays that leave the box end in the last voxel of it that they
+/// cross; they have kLeavesBox in `z`. Those that never enter it end nowhere: `z` is kMissesBox.
 struct RayEnds {
   static constexpr std::int32_t kLeavesBox = 1 << 24;  ///< more than any height
   static constexpr std::int32_t kMissesBox = 2 * kLeavesBox;
-  std::vector<std::int32_t> column;                    ///< offset of its lowest word
-  std::vector<std::int32_t> z;
+  std::vector<std::int32_t> x, y, z;
   /// The points first[k] to first[k + 1] - 1 end in voxel k.
   std::vector<std::int32_t> first;
   int size = 0;
+  /// Smallest and largest x and y of all that end somewhere; of none, the first is the larger.
+  std::int32_t low[2], high[2];
+
+  /// Begins an empty list, with room for what a kernel may write.
+  void begin(int count);
+};
+
+/// A cube around the origin of rays, whose side faces are divided into cells of a voxel edge: cell
+/// (0, 0) lies in the middle of a face.
+struct DirectionCube {
+  int half_side;                                  ///< voxel edges
+  float origin[3];                                ///< voxel edges from the corner of the box
+  int side() const { return 2 * half_side + 1; }  ///< cells
+};
+
+/// Rays to the centres of some voxels, as the cube sees them.
+struct CubeRays {
+  static constexpr std::int32_t kStraight = -1;
+  /// Column of cells that the ray crosses, of all faces side by side, side() each; kStraight when
+  /// it crosses none.
+  std::vector<std::int32_t> slice;
+  std::vector<std::int32_t> cell;  ///< of the column
+  /// Distance that the ray goes along the axis of the face, voxel edges.
+  std::vector<float> reach;
 
   /// Makes room for what a kernel may write.
   void reserve(int count);
@@ -111,11 +135,16 @@ struct Kernels {
   /// are, because neighbouring pixels see neighbouring points.
   void (*listEnds)(const EndPoints& points, RayEnds* ends);
 
+  /// Finds the cells through which the rays to the voxels ends[index[i]], i < count, run. They end
+  /// `cut` voxel edges before the voxel's centre; those that are shorter have a reach below 0.
+  void (*roundRays)(const DirectionCube& cube, const RayEnds& ends, const std::int32_t* index,
+                    int count, float cut, CubeRays* rays);
+
   /// Amanatides & Woo's walk without decisions from step to step.
   void (*walk)(const ColumnLine& line, ColumnWalk* walk);
 
-  /// Sets the voxels of a fan, clipped to heights 0..height-1.
-  void (*freeFan)(const FanPart& fan, int height, std::uint64_t* free);
+  /// Sets the voxels that runs of rays touch, clipped to heights 0..height-1.
+  void (*freeRuns)(const RayRuns& part, int height, std::uint64_t* free);
 
   /// One observation for each voxel in hit[w] or free[w] (disjoint) of `words` words: log-odds are
   /// added and clamped (eq. 6-8). Voxels that are not in known[w] start at 0, whatever their byte

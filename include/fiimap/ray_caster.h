@@ -7,6 +7,7 @@
 #include "fiimap/hit_cover.h"
 #include "fiimap/kernels.h"
 #include "fiimap/range_data.h"
+#include "fiimap/ray_slices.h"
 #include "fiimap/scan_mask.h"
 
 namespace fiimap {
@@ -25,14 +26,21 @@ struct RayCount {
 /// - Free is every voxel that the segment from the origin to the ray's end touches (Amanatides &
 ///   Woo 1987), where a miss's segment ends in the centre of its voxel and a return's segment
 ///   `end_cut` voxel edges before it.
-/// A voxel may be both hit and free; who reads the mask lets the hit win, but HitCover takes the hit
-/// from those that hold a sliver.
+/// - Directions are rounded: to the centre of the cell that the ray crosses in a side face of a
+/// cube
+///   around the origin, parallel to the axes, whose cells have a voxel edge and whose middle cells
+///   lie on the axes. Half its side is the whole number above the distance along x or y of the end
+///   that is farthest along one of them, and a quarter, but at most 512. A rounded segment ends
+///   where the straight one does along the axis of the face: at most half a voxel edge beside it on
+///   the other axes. Rays steeper than 45 degrees, rays that end outside of the cube, and all rays
+///   of an origin outside of the box are straight.
+/// A voxel may be both hit and free; who reads the mask lets the hit win, but HitCover takes the
+/// hit from those that hold a sliver.
 ///
 /// Coordinates are single precision, in voxel edges from the box's corner: exact to 1e-4 voxel
 /// edges in a box of 1000 voxels a side.
 ///
-/// Rays that end in one column share their walk over columns, and rays that end in a run of
-/// neighbouring voxels of it pass each column in one run of voxels: this is what makes it fast.
+/// Rays that share their rounded direction, or a part of their way, are cast together: RaySlices.
 /// Not thread-safe (keeps scratch memory).
 class RayCaster {
  public:
@@ -44,29 +52,26 @@ class RayCaster {
   RayCount cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask);
 
  private:
-  /// Rays to the voxels z_low..z_high (inclusive) of one column.
-  struct Fan {
-    int z_low, z_high;
-    float cut;         // voxel edges before the end
-    float distance_2;  // horizontal distance of the end column, squared
-  };
-
-  void markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count);
-  void listEnds(const PointList& ends, const ScanMask& mask);
-  void listEnd(const Eigen::Vector3f& ray, const ScanMask& mask);
-  void walkTo(int end_x, int end_y, ScanMask* mask);
-  void carve(int end_x, int end_y, ScanMask* mask);
-  void carveFan(const Fan& fan, ScanMask* mask);
-  void carveRay(const Fan& ray, ScanMask* mask);
-  void carveTogether(const Fan& fan, int columns, ScanMask* mask) const;
-  void carveApart(const Fan& fan, int first, ScanMask* mask) const;
-  float endOfRay(const Fan& fan, int z) const;
+  void listEnds(const PointList& points, const ScanMask& mask, RayEnds* ends) const;
+  void listEnd(const Eigen::Vector3f& ray, const ScanMask& mask, RayEnds* ends) const;
+  void touchColumns(ScanMask* mask) const;
+  void beginCube();
+  void markEnds(const RayEnds& ends, bool are_returns, ScanMask* mask, RayCount* count);
+  void castRays(const RayEnds& ends, std::vector<std::int32_t>* listed, float cut, ScanMask* mask);
+  void castStraight(const RayEnds& ends, std::int32_t k, float cut, ScanMask* mask);
+  void walkTo(int end_x, int end_y, const ScanMask& mask);
+  float endOfRay(int x, int y, float rise, float cut) const;
 
   VoxelLattice lattice_;
   float end_cut_;
   HitCover hit_cover_;
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();  // of the scan, in voxels relative to the box
-  RayEnds ends_;
+  bool origin_is_inside_ = true;
+  RayEnds misses_, returns_;
+  std::vector<std::int32_t> cut_rays_, whole_rays_;  // ends of distinct rays, by index
+  DirectionCube cube_{1, {0.0f, 0.0f, 0.0f}};
+  CubeRays rays_;
+  RaySlices slices_;
   ColumnWalk walk_;
   const Kernels& kernels_;
 };

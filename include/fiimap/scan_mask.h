@@ -49,16 +49,14 @@ class ScanMask {
   }
   void mark(Layer layer, const VoxelIndex& v) {
     if (layer != kFree) {
-      markEnd(layer, columnOffset(v.x(), v.y()), v.z());
+      markEnd(layer, columnOffset(v.x(), v.y()) + v.z() / kWordBits, v.z() % kWordBits);
     } else {
       column(layer, v.x(), v.y())[v.z() / kWordBits] |= std::uint64_t{1} << (v.z() % kWordBits);
     }
   }
-  /// Marks a voxel of the layers of ends.
+  /// Marks a bit of a word of the layers of ends.
   /// \return whether it was not marked before.
-  bool markEnd(Layer layer, std::int32_t column_offset, int z);
-  /// Offsets of the columns that hold marks of the layers of ends, each once.
-  const std::vector<std::int32_t>& endColumns() const { return end_columns_; }
+  bool markEnd(Layer layer, std::int32_t word, int bit);
   /// Sets the bits z_low..z_high (inclusive, clipped to the box) of a column of the free layer.
   void markFreeRun(std::int32_t column_offset, int z_low, int z_high);
 
@@ -76,7 +74,7 @@ class ScanMask {
   }
   /// Memory of a mask over a box of this size (voxels), bytes.
   static std::int64_t memoryBytes(const VoxelIndex& size) {
-    return words(size) * (kLayerCount * sizeof(std::uint64_t) + sizeof(std::uint8_t));
+    return words(size) * kLayerCount * sizeof(std::uint64_t);
   }
 
  private:
@@ -87,19 +85,15 @@ class ScanMask {
   VoxelBox touched_;
   int words_ = 0;
   std::vector<std::uint64_t> bits_[kLayerCount];
-  std::vector<std::int32_t> end_columns_;
-  std::vector<std::uint8_t> has_ends_;  // by offset of column
+  std::vector<std::int32_t> end_words_;  // with marks of the layers of ends, each at least once
 };
 
-inline bool ScanMask::markEnd(Layer layer, std::int32_t column_offset, int z) {
-  std::uint64_t& word = bits_[layer][column_offset + z / kWordBits];
-  const std::uint64_t mark = std::uint64_t{1} << (z % kWordBits);
-  if ((word & mark) != 0) return false;
-  word |= mark;
-  if (has_ends_[column_offset] == 0) {
-    has_ends_[column_offset] = 1;
-    end_columns_.push_back(column_offset);
-  }
+inline bool ScanMask::markEnd(Layer layer, std::int32_t word, int bit) {
+  std::uint64_t& bits = bits_[layer][word];
+  const std::uint64_t mark = std::uint64_t{1} << bit;
+  if ((bits & mark) != 0) return false;
+  bits |= mark;
+  end_words_.push_back(word);
   return true;
 }
 

@@ -18,9 +18,9 @@ std::size_t HitCover::dropSlivers(const RangeData& scan, const RayEnds& ends,
   const double least = min_cover_ * scan.returns_per_steradian;
   if (!(least > 0.0)) return 0;
   const double one_suffices = (std::sqrt(least) + kHalfDiagonal) * resolution;  // m
-  listPassed(ends, mask->column(ScanMask::kFree, 0, 0));
+  listPassed(ends, *mask);
   listNear(ends, scan.returns, static_cast<float>(one_suffices * one_suffices));
-  countReturns(ends);
+  countReturns(ends, *mask);
   std::uint64_t* const hit = mask->column(ScanMask::kHit, 0, 0);
   std::size_t dropped = 0;
   for (const Voxel& voxel : voxels_) {
@@ -35,12 +35,14 @@ std::size_t HitCover::dropSlivers(const RangeData& scan, const RayEnds& ends,
 }
 
 /// The ends in free voxels. Without a branch, which would be guessed wrong often.
-void HitCover::listPassed(const RayEnds& ends, const std::uint64_t* free) {
+void HitCover::listPassed(const RayEnds& ends, const ScanMask& mask) {
+  const std::uint64_t* const free = mask.column(ScanMask::kFree, 0, 0);
   ends_.resize(ends.size + 1);
   int size = 0;
   for (int k = 0; k < ends.size; ++k) {
     const std::uint32_t z = static_cast<std::uint32_t>(ends.z[k]) % RayEnds::kLeavesBox;
-    const std::uint64_t is_free = free[ends.column[k] + z / kWordBits] >> (z % kWordBits) & 1u;
+    const std::int32_t word = mask.columnOffset(ends.x[k], ends.y[k]) + z / kWordBits;
+    const std::uint64_t is_free = free[word] >> (z % kWordBits) & 1u;
     ends_[size] = k;
     size += static_cast<int>(is_free) & static_cast<int>(ends.z[k] < RayEnds::kLeavesBox);
   }
@@ -57,14 +59,15 @@ void HitCover::listNear(const RayEnds& ends, const PointList& returns, float max
   ends_.resize(size);
 }
 
-void HitCover::countReturns(const RayEnds& ends) {
+void HitCover::countReturns(const RayEnds& ends, const ScanMask& mask) {
   constexpr std::size_t kSmallest = 64;
   std::size_t size = kSmallest;
   while (size < 2 * ends_.size()) size *= 2;
   table_.assign(size, kNoVoxel);
   voxels_.clear();
   for (const std::int32_t k : ends_) {
-    Voxel& voxel = find(ends.column[k] + ends.z[k] / kWordBits, ends.z[k] % kWordBits);
+    const std::int32_t column = mask.columnOffset(ends.x[k], ends.y[k]);
+    Voxel& voxel = find(column + ends.z[k] / kWordBits, ends.z[k] % kWordBits);
     voxel.returns += ends.first[k + 1] - ends.first[k];
   }
 }

@@ -39,7 +39,8 @@ Span clipToBox(const Eigen::Vector3f& origin, const Eigen::Vector3f& ray, const 
   return span;
 }
 
-int ceilToInt(float value) { return -floorToInt(-value); }
+/// Of the cube of directions, voxel edges: bounds the memory that a scan of a long range needs.
+constexpr int kMaxHalfSide = 512;
 
 }  // namespace
 
@@ -53,63 +54,113 @@ RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* m
   mask->begin(box);
   RayCount count;
   if (box.empty()) return count;
-  const VoxelIndex& size = mask->size();
 
   // Relative to the box, so that coordinates are small wherever the vehicle is.
   origin_ = (scan.origin / lattice_.resolution() - box.min.cast<double>()).cast<float>();
-  markEnds(scan.misses, false, mask, &count);
-  markEnds(scan.returns, true, mask, &count);  // last: ends_ is read again below
-  for (const std::int32_t offset : mask->endColumns()) {
-    const int column = offset / mask->wordsPerColumn();
-    const int x = column / size.y();
-    const int y = column % size.y();
-    walkTo(x, y, mask);
-    carve(x, y, mask);
-  }
-  count.hits -= hit_cover_.dropSlivers(scan, ends_, origin_, lattice_.resolution(), mask);
+  const Eigen::Array3f size = mask->size().cast<float>();
+  origin_is_inside_ = (origin_.array() >= 0.0f).all() && (origin_.array() <= size).all();
+  listEnds(scan.misses, *mask, &misses_);
+  listEnds(scan.returns, *mask, &returns_);
+  touchColumns(mask);
+  beginCube();
+  markEnds(misses_, false, mask, &count);
+  markEnds(returns_, true, mask, &count);
+  slices_.carve(mask);
+  count.hits -= hit_cover_.dropSlivers(scan, returns_, origin_, lattice_.resolution(), mask);
   return count;
 }
 
-void RayCaster::markEnds(const PointList& ends, bool are_returns, ScanMask* mask, RayCount* count) {
-  listEnds(ends, *mask);
-  for (int k = 0; k < ends_.size; ++k) {
-    if (ends_.z[k] == RayEnds::kMissesBox) continue;
-    const bool leaves = ends_.z[k] >= RayEnds::kLeavesBox;
-    const bool is_return = are_returns && !leaves;
-    const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
-    const bool is_new = mask->markEnd(layer, ends_.column[k], ends_.z[k] % RayEnds::kLeavesBox);
-    if (is_new) ++(is_return ? count->hits : count->misses);
+/// Rays stay in the rectangle of columns around their ends and their origin.
+void RayCaster::touchColumns(ScanMask* mask) const {
+  if (misses_.high[0] < 0 && returns_.high[0] < 0) return;
+  const VoxelIndex origin = nearestVoxel(origin_, mask->size());
+  mask->touch(origin.x(), origin.y());
+  for (const RayEnds* ends : {&misses_, &returns_}) {
+    if (ends->high[0] < 0) continue;
+    mask->touch(ends->low[0], ends->low[1]);
+    mask->touch(ends->high[0], ends->high[1]);
   }
 }
 
-void RayCaster::listEnds(const PointList& ends, const ScanMask& mask) {
-  const float to_voxels = static_cast<float>(1.0 / lattice_.resolution());
-  const int count = static_cast<int>(ends.size());
-  const Eigen::Array3f size = mask.size().cast<float>();
-  if ((origin_.array() < 0.0f).any() || (origin_.array() > size).any()) {
-    // Rays that enter the box on their way are too rare for a kernel.
-    ends_.reserve(count);
-    ends_.size = 0;
-    for (const Eigen::Vector3f& end : ends) listEnd(end * to_voxels, mask);
-    ends_.first[ends_.size] = ends_.size;
+/// The cube reaches a little beyond the ends that are farthest along x or y.
+void RayCaster::beginCube() {
+  constexpr float kSlack = 0.25f;  // centres of voxels are often a whole number of edges away
+  float farthest = 0.0f;
+  for (const RayEnds* ends : {&misses_, &returns_}) {
+    if (ends->high[0] < 0) continue;
+    for (int axis = 0; axis < 2; ++axis) {
+      farthest = std::max({farthest, origin_[axis] - (ends->low[axis] + 0.5f),
+                           ends->high[axis] + 0.5f - origin_[axis]});
+    }
+  }
+  cube_.half_side = static_cast<int>(std::min<float>(farthest + kSlack, kMaxHalfSide - 1)) + 1;
+  for (int axis = 0; axis < 3; ++axis) cube_.origin[axis] = origin_[axis];
+  if (origin_is_inside_) slices_.begin(cube_);
+}
+
+/// Marks the voxels in which rays end, and hands the rays on, one for each of them.
+void RayCaster::markEnds(const RayEnds& ends, bool are_returns, ScanMask* mask, RayCount* count) {
+  cut_rays_.clear();
+  whole_rays_.clear();
+  for (int k = 0; k < ends.size; ++k) {
+    if (ends.z[k] == RayEnds::kMissesBox) continue;
+    const bool is_return = are_returns && ends.z[k] < RayEnds::kLeavesBox;
+    const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
+    const int z = ends.z[k] % RayEnds::kLeavesBox;
+    const std::int32_t word = mask->columnOffset(ends.x[k], ends.y[k]) + z / kWordBits;
+    if (!mask->markEnd(layer, word, z % kWordBits)) continue;
+    (is_return ? cut_rays_ : whole_rays_).push_back(k);
+  }
+  count->hits += cut_rays_.size();
+  count->misses += whole_rays_.size();
+  castRays(ends, &cut_rays_, end_cut_, mask);
+  castRays(ends, &whole_rays_, 0.0f, mask);
+}
+
+/// Casts the rays to ends[k] for each k that is listed.
+void RayCaster::castRays(const RayEnds& ends, std::vector<std::int32_t>* listed, float cut,
+                         ScanMask* mask) {
+  const int count = static_cast<int>(listed->size());
+  if (!origin_is_inside_) {
+    for (const std::int32_t k : *listed) castStraight(ends, k, cut, mask);
     return;
   }
-  EndPoints points;
-  points.x = ends.x();
-  points.y = ends.y();
-  points.z = ends.z();
-  points.count = count;
-  points.to_voxels = to_voxels;
-  points.words = mask.wordsPerColumn();
-  for (int axis = 0; axis < 3; ++axis) {
-    points.origin[axis] = origin_[axis];
-    points.size[axis] = mask.size()[axis];
+  listed->resize(count + kVectorRoom);
+  kernels_.roundRays(cube_, ends, listed->data(), count, cut, &rays_);
+  for (int i = 0; i < count; ++i) {
+    if (rays_.slice[i] == CubeRays::kStraight) {
+      castStraight(ends, (*listed)[i], cut, mask);
+    } else if (rays_.reach[i] > 0.0f) {
+      slices_.add(rays_.slice[i], rays_.cell[i], rays_.reach[i]);
+    }
   }
-  kernels_.listEnds(points, &ends_);
+}
+
+void RayCaster::listEnds(const PointList& points, const ScanMask& mask, RayEnds* ends) const {
+  const float to_voxels = static_cast<float>(1.0 / lattice_.resolution());
+  const int count = static_cast<int>(points.size());
+  if (!origin_is_inside_) {
+    // Rays that enter the box on their way are too rare for a kernel.
+    ends->begin(count);
+    for (const Eigen::Vector3f& point : points) listEnd(point * to_voxels, mask, ends);
+    ends->first[ends->size] = ends->size;
+    return;
+  }
+  EndPoints end_points;
+  end_points.x = points.x();
+  end_points.y = points.y();
+  end_points.z = points.z();
+  end_points.count = count;
+  end_points.to_voxels = to_voxels;
+  for (int axis = 0; axis < 3; ++axis) {
+    end_points.origin[axis] = origin_[axis];
+    end_points.size[axis] = mask.size()[axis];
+  }
+  kernels_.listEnds(end_points, ends);
 }
 
 /// Of a sensor anywhere.
-void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask) {
+void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask, RayEnds* ends) const {
   const VoxelIndex& size = mask.size();
   const Eigen::Vector3f end = origin_ + ray;
   VoxelIndex v = end.cast<int>();  // the floor, inside the box
@@ -119,28 +170,54 @@ void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask) {
     flag = span.empty() ? RayEnds::kMissesBox : RayEnds::kLeavesBox;
     v = span.empty() ? VoxelIndex::Zero() : nearestVoxel(origin_ + span.exit * ray, size);
   }
-  ends_.column[ends_.size] = mask.columnOffset(v.x(), v.y());
-  ends_.z[ends_.size] = v.z() + flag;
-  ends_.first[ends_.size] = ends_.size;
-  ++ends_.size;
+  if (flag != RayEnds::kMissesBox) {
+    for (int axis = 0; axis < 2; ++axis) {
+      ends->low[axis] = std::min(ends->low[axis], v[axis]);
+      ends->high[axis] = std::max(ends->high[axis], v[axis]);
+    }
+  }
+  ends->x[ends->size] = v.x();
+  ends->y[ends->size] = v.y();
+  ends->z[ends->size] = v.z() + flag;
+  ends->first[ends->size] = ends->size;
+  ++ends->size;
 }
 
-/// The line of the rays to an end column over the columns of the mask.
-void RayCaster::walkTo(int end_x, int end_y, ScanMask* mask) {
+/// A ray whose direction is not rounded: straight to the centre of voxel ends[k].
+void RayCaster::castStraight(const RayEnds& ends, std::int32_t k, float cut, ScanMask* mask) {
+  const float rise = static_cast<float>(ends.z[k] % RayEnds::kLeavesBox) + 0.5f - origin_.z();
+  const float t_end = endOfRay(ends.x[k], ends.y[k], rise, cut);
+  walkTo(ends.x[k], ends.y[k], *mask);
+  int columns = walk_.size;
+  while (columns > 0 && walk_.t[columns - 1] > t_end) --columns;
+  walk_.t[columns] = std::min(walk_.t[columns], t_end);
+  RayRuns ray;
+  ray.column = walk_.column.data();
+  ray.t = walk_.t.data();
+  ray.columns = columns;
+  ray.origin_z = origin_.z();
+  ray.rise_low = ray.rise_high = &rise;
+  ray.runs = 1;
+  kernels_.freeRuns(ray, mask->size().z(), mask->column(ScanMask::kFree, 0, 0));
+}
+
+/// The line to the middle of an end column over the columns of the mask; t is 1 there.
+void RayCaster::walkTo(int end_x, int end_y, const ScanMask& mask) {
   const int end[2] = {end_x, end_y};
   const float direction[2] = {end_x + 0.5f - origin_.x(), end_y + 0.5f - origin_.y()};
-  const int offset[2] = {mask->columnOffset(1, 0), mask->columnOffset(0, 1)};
+  const int offset[2] = {mask.columnOffset(1, 0), mask.columnOffset(0, 1)};
   const int major = std::abs(direction[0]) >= std::abs(direction[1]) ? 0 : 1;
   const int minor = 1 - major;
   Span span;
   for (int axis = 0; axis < 2; ++axis) {
-    clipToSlab(origin_[axis], direction[axis], static_cast<float>(mask->size()[axis]), &span);
+    clipToSlab(origin_[axis], direction[axis], static_cast<float>(mask.size()[axis]), &span);
   }
 
   ColumnLine line;
   line.start_t = std::min(span.enter, 1.0f);
+  line.end_t = 1.0f;
   const int start = std::clamp(floorToInt(origin_[major] + direction[major] * line.start_t), 0,
-                               mask->size()[major] - 1);
+                               mask.size()[major] - 1);
   const int step = end[major] >= start ? 1 : -1;
   line.slabs = std::abs(end[major] - start) + 1;
   line.first_border = static_cast<float>(start + (step > 0 ? 0 : 1)) - origin_[major];
@@ -151,102 +228,18 @@ void RayCaster::walkTo(int end_x, int end_y, ScanMask* mask) {
   line.minor_step = direction[minor] > 0.0f ? 1 : -1;
   line.minor_border = (line.minor_step > 0 ? 1.0f : 0.0f) - origin_[minor];
   line.t_per_minor = direction[minor] != 0.0f ? 1.0f / direction[minor] : 0.0f;
-  line.last_minor_cell = mask->size()[minor] - 1;
+  line.last_minor_cell = mask.size()[minor] - 1;
   line.first_column = start * offset[major];
   line.major_offset = step * offset[major];
   line.minor_offset = offset[minor];
   kernels_.walk(line, &walk_);
-
-  mask->touch(end_x, end_y);
-  const int first = walk_.column[0] / mask->wordsPerColumn();
-  mask->touch(first / mask->size().y(), first % mask->size().y());
 }
 
-void RayCaster::carve(int end_x, int end_y, ScanMask* mask) {
-  const float distance_2 =
-      (Eigen::Vector2f(end_x + 0.5f, end_y + 0.5f) - origin_.head<2>()).squaredNorm();
-  for (const ScanMask::Layer layer : {ScanMask::kHit, ScanMask::kMissEnd}) {
-    const float cut = layer == ScanMask::kHit ? end_cut_ : 0.0f;
-    forEachRun(mask->column(layer, end_x, end_y), mask->wordsPerColumn(),
-               [&](int z_low, int z_high) {
-                 carveFan({z_low, z_high, cut, distance_2}, mask);
-               });
-  }
-}
-
-void RayCaster::carveFan(const Fan& fan, ScanMask* mask) {
-  if (fan.z_low == fan.z_high) return carveRay(fan, mask);
-  // The shortest ray of the fan is cut off first; up to there all rays pass together.
-  const int z_nearest = std::clamp(floorToInt(origin_.z()), fan.z_low, fan.z_high);
-  const float t_together = endOfRay(fan, z_nearest);
-  int together = walk_.size;
-  while (together > 0 && walk_.t[together] > t_together) --together;
-  carveTogether(fan, together, mask);
-  if (together < walk_.size) carveApart(fan, together, mask);
-}
-
-/// A fan of one ray, which leaves its last column where it ends.
-void RayCaster::carveRay(const Fan& ray, ScanMask* mask) {
-  const float t_end = endOfRay(ray, ray.z_low);
-  int columns = walk_.size;
-  while (columns > 0 && walk_.t[columns - 1] > t_end) --columns;
-  const float t_out = walk_.t[columns];
-  walk_.t[columns] = std::min(t_out, t_end);
-  carveTogether(ray, columns, mask);
-  walk_.t[columns] = t_out;
-}
-
-/// In each column all rays of the fan touch one run of voxels, from where the lowest ray is lowest
-/// to where the highest ray is highest.
-void RayCaster::carveTogether(const Fan& fan, int columns, ScanMask* mask) const {
-  FanPart part;
-  part.column = walk_.column.data();
-  part.columns = columns;
-  part.origin_z = origin_.z();
-  part.rise_low = fan.z_low + 0.5f - origin_.z();
-  part.rise_high = fan.z_high + 0.5f - origin_.z();
-  part.t_low = walk_.t.data() + (part.rise_low < 0.0f ? 1 : 0);
-  part.t_high = walk_.t.data() + (part.rise_high < 0.0f ? 0 : 1);
-  part.lowest = origin_.z() + std::min(0.0f, part.rise_low);
-  part.highest = origin_.z() + std::max(0.0f, part.rise_high);
-  kernels_.freeFan(part, mask->size().z(), mask->column(ScanMask::kFree, 0, 0));
-}
-
-/// Where some rays have ended already: those left are the longest, at the fan's upper and lower
-/// end. Neighbouring rays are at most a voxel apart, so that each of the two groups touches one
-/// run.
-void RayCaster::carveApart(const Fan& fan, int first, ScanMask* mask) const {
-  const float rise_low = fan.z_low + 0.5f - origin_.z();
-  const float rise_high = fan.z_high + 0.5f - origin_.z();
-  const float t_end_low = endOfRay(fan, fan.z_low);
-  const float t_end_high = endOfRay(fan, fan.z_high);
-  for (int k = first; k < walk_.size; ++k) {
-    const float t_in = walk_.t[k];
-    const float t_out = walk_.t[k + 1];
-    // A ray reaches t_in when its length is at least cut / (1 - t_in).
-    const float length = t_in < 1.0f ? fan.cut / (1.0f - t_in) : 0.0f;
-    const float rise_2 = length * length - fan.distance_2;
-    const float rise = rise_2 > 0.0f ? std::sqrt(rise_2) : 0.0f;
-    if (rise_high >= rise && t_in <= t_end_high) {
-      const int z = std::max(fan.z_low, ceilToInt(origin_.z() + rise - 0.5f));
-      const float lowest = origin_.z() + (z + 0.5f - origin_.z()) * t_in;
-      const float highest = origin_.z() + rise_high * std::min(t_out, t_end_high);
-      mask->markFreeRun(walk_.column[k], floorToInt(lowest), floorToInt(highest));
-    }
-    if (rise_low <= -rise && t_in <= t_end_low) {
-      const int z = std::min(fan.z_high, floorToInt(origin_.z() - rise - 0.5f));
-      const float lowest = origin_.z() + rise_low * std::min(t_out, t_end_low);
-      const float highest = origin_.z() + (z + 0.5f - origin_.z()) * t_in;
-      mask->markFreeRun(walk_.column[k], floorToInt(lowest), floorToInt(highest));
-    }
-  }
-}
-
-/// Where the ray to voxel z of the end column ends, before its cut.
-float RayCaster::endOfRay(const Fan& fan, int z) const {
-  const float rise = z + 0.5f - origin_.z();
-  const float length = std::sqrt(fan.distance_2 + rise * rise);
-  return length > 0.0f ? 1.0f - fan.cut / length : (fan.cut > 0.0f ? -1.0f : 1.0f);
+/// Where the ray to a voxel ends, before its cut; below 0 when it does not begin.
+float RayCaster::endOfRay(int x, int y, float rise, float cut) const {
+  const Eigen::Vector2f level = Eigen::Vector2f(x + 0.5f, y + 0.5f) - origin_.head<2>();
+  const float length = std::sqrt(level.squaredNorm() + rise * rise);
+  return length > 0.0f ? 1.0f - cut / length : (cut > 0.0f ? -1.0f : 1.0f);
 }
 
 }  // namespace fiimap

@@ -3,13 +3,8 @@
 namespace fiimap {
 
 void ScanMask::begin(const VoxelBox& box) {
-  for (const std::int32_t column : end_columns_) {
-    for (const Layer layer : {kHit, kMissEnd}) {
-      std::fill_n(bits_[layer].begin() + column, words_, 0);
-    }
-    has_ends_[column] = 0;
-  }
-  end_columns_.clear();
+  for (const std::int32_t word : end_words_) bits_[kHit][word] = bits_[kMissEnd][word] = 0;
+  end_words_.clear();
   // Only the columns that the last scan touched can hold bits.
   for (int x = touched_.min.x(); x < touched_.max.x(); ++x) {
     std::fill(column(kFree, x, touched_.min.y()), column(kFree, x, touched_.max.y()), 0);
@@ -22,7 +17,6 @@ void ScanMask::begin(const VoxelBox& box) {
   for (auto& layer : bits_) {
     if (layer.size() < words) layer.resize(words, 0);
   }
-  if (has_ends_.size() < words) has_ends_.resize(words, 0);
 }
 
 void ScanMask::touch(int x, int y) {

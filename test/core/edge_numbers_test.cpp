@@ -92,16 +92,21 @@ TEST_P(EdgeNumbersTest, EveryVoxelIsAsTheModelSays) {
       mapper.integrate(PointScan(), pose);
       const VoxelBox window = mapper.grid().window();
       model.integrate(pose, {}, window);
-      PointScan points;
-      std::vector<Eigen::Vector3d> points_W;
+      std::vector<Eigen::Vector3f> offsets;
+      std::vector<Eigen::Vector3d> all_W;
       for (int i = 0; i < 12; ++i) {
         const Eigen::Vector3d point_W =
             i % 3 == 0 ? edge.origin + within(7.0 * edge_m) : obstacle + within(0.2 * edge_m);
-        const Eigen::Vector3f offset = (point_W - pose.vehicle_W).cast<float>();
-        const Eigen::Vector3d seen_W = pose.vehicle_W + offset.cast<double>();
-        if (!model.isExact(pose, seen_W, window)) continue;
-        points.points.push_back(offset);
-        points_W.push_back(seen_W);
+        offsets.push_back((point_W - pose.vehicle_W).cast<float>());
+        all_W.push_back(pose.vehicle_W + offsets.back().cast<double>());
+      }
+      PointScan points;
+      std::vector<Eigen::Vector3d> points_W;
+      const std::vector<bool> is_exact = model.exactRays(pose, all_W, window);
+      for (std::size_t i = 0; i < all_W.size(); ++i) {
+        if (!is_exact[i]) continue;
+        points.points.push_back(offsets[i]);
+        points_W.push_back(all_W[i]);
       }
       mapper.integrate(points, pose);
       model.integrate(pose, points_W, window);

@@ -1,6 +1,7 @@
 #include "fiimap/kernels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -110,25 +111,53 @@ TEST_P(KernelsTest, ListEnds) {
       for (int i = 0; i < count; ++i)
         axis[i] = test::chance(random_, 0.05) ? 0.0f : uniform(-spread, spread);
     }
-    const EndPoints points{offset[0].data(),
-                           offset[1].data(),
-                           offset[2].data(),
-                           count,
-                           10.0f,
-                           {10.25f, 5.5f, 15.75f},
-                           {20, 30, 100},
-                           2};
+    const EndPoints points{offset[0].data(),       offset[1].data(), offset[2].data(), count, 10.0f,
+                           {10.25f, 5.5f, 15.75f}, {20, 30, 100}};
     const auto run = [&](const Kernels& kernels) {
       RayEnds ends;
       kernels.listEnds(points, &ends);
-      std::vector<std::pair<int, int>> end_of;
+      std::vector<std::array<int, 3>> end_of;
+      std::array<int, 4> bounds{ends.low[0], ends.low[1], ends.high[0], ends.high[1]};
       for (int k = 0; k < ends.size; ++k) {
         EXPECT_EQ(ends.first[k], static_cast<int>(end_of.size()));
-        end_of.resize(ends.first[k + 1], {ends.column[k], ends.z[k]});
+        end_of.resize(ends.first[k + 1], {ends.x[k], ends.y[k], ends.z[k]});
       }
       EXPECT_EQ(static_cast<int>(end_of.size()), count);
       EXPECT_TRUE(spread > 0.1f || count < 50 || ends.size < count) << "leaves something out";
-      return end_of;
+      return std::make_pair(end_of, bounds);
+    };
+    ASSERT_EQ(run(tested_), run(plain_));
+  }
+}
+
+TEST_P(KernelsTest, RoundRays) {
+  for (int round = 0; round < kRounds; ++round) {
+    const int count = test::uniformInt(random_, 0, 60);
+    RayEnds ends;
+    ends.begin(count);
+    std::vector<std::int32_t> index(count + kVectorRoom);
+    for (int i = 0; i < count; ++i) {
+      ends.x[i] = test::uniformInt(random_, 0, 20);
+      ends.y[i] = test::uniformInt(random_, 0, 30);
+      ends.z[i] = test::uniformInt(random_, 0, 40);
+      if (test::chance(random_, 0.3)) ends.z[i] += RayEnds::kLeavesBox;
+      index[i] = test::uniformInt(random_, 0, count - 1);
+    }
+    const float cut = test::chance(random_, 0.5) ? 0.0f : 2.25f;
+    const bool at_center = test::chance(random_, 0.3);
+    const DirectionCube cube{test::uniformInt(random_, 10, 31),
+                             {10.25f, at_center ? 14.5f : 3.75f, at_center ? 20.5f : 15.0f}};
+    const auto run = [&](const Kernels& kernels) {
+      CubeRays rays;
+      kernels.roundRays(cube, ends, index.data(), count, cut, &rays);
+      rays.slice.resize(count);
+      rays.cell.resize(count);
+      // A ray of no length has no reach.
+      for (int i = 0; i < count; ++i) {
+        if (rays.slice[i] == CubeRays::kStraight) rays.reach[i] = 0.0f;
+      }
+      rays.reach.resize(count);
+      return std::make_tuple(rays.slice, rays.cell, rays.reach);
     };
     ASSERT_EQ(run(tested_), run(plain_));
   }
@@ -141,6 +170,7 @@ ColumnLine randomLine(test::Random& random) {
   const float slope = static_cast<float>(test::uniformReal(random, -0.3, 0.3));
   const float length = line.slabs - 0.25f;
   line.start_t = test::chance(random, 0.2) ? 0.25f : 0.0f;
+  line.end_t = 1.0f;
   line.first_border = -0.25f;
   line.major_step = 1.0f;
   line.t_per_major = line.slabs > 1 ? 1.0f / length : 0.0f;
@@ -166,10 +196,13 @@ TEST_P(KernelsTest, Walk) {
     ASSERT_GE(walk.size, line.slabs);
     for (int k = 0; k < walk.size; ++k) ASSERT_EQ(walk.column[k], expected.column[k]) << k;
     for (int k = 0; k <= walk.size; ++k) ASSERT_EQ(walk.t[k], expected.t[k]) << k;
+    for (int i = 0; i <= line.slabs; ++i) {
+      ASSERT_EQ(walk.first_of_slab[i], expected.first_of_slab[i]) << i;
+    }
   }
 }
 
-TEST_P(KernelsTest, FreeFan) {
+TEST_P(KernelsTest, FreeRuns) {
   for (int round = 0; round < kRounds; ++round) {
     constexpr int kWords = 3;
     constexpr int kColumns = 100;
@@ -178,21 +211,24 @@ TEST_P(KernelsTest, FreeFan) {
     std::vector<float> t(kColumns + 1 + kVectorRoom);
     for (int k = 0; k < kColumns; ++k) column[k] = k * kWords;
     for (int k = 0; k <= kColumns; ++k) t[k] = static_cast<float>(k) / kColumns;
-    FanPart fan;
-    fan.column = column.data();
-    fan.columns = test::uniformInt(random_, 0, kColumns);
-    fan.origin_z = uniform(-10.0, height + 10.0);
-    fan.rise_low = uniform(-height, height);
-    fan.rise_high = fan.rise_low + uniform(0.0, 20.0);
-    fan.t_low = t.data() + (fan.rise_low < 0.0f ? 1 : 0);
-    fan.t_high = t.data() + (fan.rise_high < 0.0f ? 0 : 1);
-    fan.lowest = fan.origin_z + std::min(0.0f, fan.rise_low);
-    fan.highest = fan.origin_z + std::max(0.0f, fan.rise_high);
+    std::vector<float> rise_low(test::uniformInt(random_, 0, 4)), rise_high;
+    for (float& rise : rise_low) {
+      rise = uniform(-height, height);
+      rise_high.push_back(rise + uniform(0.0, 20.0));
+    }
+    RayRuns part;
+    part.column = column.data();
+    part.t = t.data();
+    part.columns = test::uniformInt(random_, 0, kColumns);
+    part.origin_z = uniform(-10.0, height + 10.0);
+    part.rise_low = rise_low.data();
+    part.rise_high = rise_high.data();
+    part.runs = static_cast<int>(rise_low.size());
     std::vector<std::uint64_t> expected(kWords * kColumns);
     for (std::uint64_t& word : expected) word = test::chance(random_, 0.5) ? 0 : randomWord();
     std::vector<std::uint64_t> free = expected;
-    plain_.freeFan(fan, height, expected.data());
-    tested_.freeFan(fan, height, free.data());
+    plain_.freeRuns(part, height, expected.data());
+    tested_.freeRuns(part, height, free.data());
     ASSERT_EQ(free, expected);
   }
 }

@@ -18,14 +18,40 @@ class MapperModel {
  public:
   explicit MapperModel(const MapperConfig& config) : config_(config), log_odds_(config) {}
 
-  /// Whether the ray from the sensor to a point (world) has nothing for rounding to decide.
-  bool isExact(const ScanPose& pose, const Eigen::Vector3d& point_W, const VoxelBox& window) const {
+  /// Of points (world) seen in one scan, those whose rays leave nothing for rounding to decide when
+  /// they are the scan.
+  std::vector<bool> exactRays(const ScanPose& pose, const std::vector<Eigen::Vector3d>& points_W,
+                              const VoxelBox& window) const {
     const VoxelBox box = updateBox(pose, window);
-    if (box.empty()) return true;
-    RayOracle oracle(box, config_.ray_end_cut);
-    return addRay(pose.T_W_S.translation(), point_W, &oracle) && oracle.isExact();
+    std::vector<bool> is_exact(points_W.size(), true);
+    if (box.empty()) return is_exact;
+    const Eigen::Vector3d origin_W = pose.T_W_S.translation();
+    const ExactPoint origin = inVoxels(origin_W);
+    for (std::size_t i = 0; i < points_W.size(); ++i) {
+      RayOracle alone(box, config_.ray_end_cut);
+      is_exact[i] = addRay(origin_W, points_W[i], &alone) && alone.halfSideOfCube(origin);
+    }
+    // What is left out may have been what the cube is as large as.
+    for (bool again = true; again;) {
+      again = false;
+      RayOracle together(box, config_.ray_end_cut);
+      for (std::size_t i = 0; i < points_W.size(); ++i) {
+        if (is_exact[i]) addRay(origin_W, points_W[i], &together);
+      }
+      for (std::size_t i = 0; i < points_W.size(); ++i) {
+        if (!is_exact[i]) continue;
+        RayOracle alone(box, config_.ray_end_cut);
+        addRay(origin_W, points_W[i], &alone);
+        alone.cast(origin, *together.halfSideOfCube(origin));
+        if (alone.isExact()) continue;
+        is_exact[i] = false;
+        again = true;
+      }
+    }
+    return is_exact;
   }
 
+  /// \param points_W whose rays are exact.
   /// \param window of the mapper after the scan.
   void integrate(const ScanPose& pose, const std::vector<Eigen::Vector3d>& points_W,
                  const VoxelBox& window) {
@@ -35,6 +61,8 @@ class MapperModel {
     if (box.empty()) return;
     RayOracle oracle(box, config_.ray_end_cut);
     for (const Eigen::Vector3d& p : points_W) addRay(pose.T_W_S.translation(), p, &oracle);
+    const ExactPoint origin = inVoxels(pose.T_W_S.translation());
+    oracle.cast(origin, *oracle.halfSideOfCube(origin));
     forEachVoxel(box, [&](const VoxelIndex& v) {
       const bool is_hit = oracle.hits().count(v) != 0;
       if (is_hit || oracle.mustBeFree(v)) observe(v, is_hit);

@@ -99,9 +99,12 @@ Eigen::Vector3f inSensorFrame(const ScanPose& pose, const Eigen::Vector3d& point
 std::vector<Eigen::Vector3d> exactPoints(const MapperModel& model, const ScanPose& pose,
                                          const VoxelBox& window,
                                          std::vector<Eigen::Vector3d> points_W) {
-  points_W.erase(std::remove_if(points_W.begin(), points_W.end(),
-                                [&](const auto& p) { return !model.isExact(pose, p, window); }),
-                 points_W.end());
+  const std::vector<bool> is_exact = model.exactRays(pose, points_W, window);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_W.size(); ++i) {
+    if (is_exact[i]) points_W[kept++] = points_W[i];
+  }
+  points_W.resize(kept);
   return points_W;
 }
 
@@ -188,15 +191,22 @@ TEST_P(MapperModelTest, ADepthImageIsTheCloudOfItsPoints) {
     const ScanPose pose = flight.next();
     from_image.integrate(PointScan(), pose);
     from_points.integrate(PointScan(), pose);
-    std::vector<float> pixels(kWidth * kHeight, 0.0f);
+    std::vector<float> pixels;
+    std::vector<Eigen::Vector3d> points_C, points_W;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      pixels.push_back(static_cast<float>(test::uniformReal(random, 0.2, 12.0)));
+      points_C.emplace_back((i % kWidth - kCamera.cx) / kCamera.fx * pixels[i],
+                            (i / kWidth - kCamera.cy) / kCamera.fy * pixels[i], pixels[i]);
+      points_W.push_back(pose.T_W_S * points_C[i]);
+    }
+    const std::vector<bool> is_exact = model.exactRays(pose, points_W, from_image.grid().window());
     PointScan points;
     for (int i = 0; i < kWidth * kHeight; ++i) {
-      const float depth = static_cast<float>(test::uniformReal(random, 0.2, 12.0));
-      const Eigen::Vector3d point_C((i % kWidth - kCamera.cx) / kCamera.fx * depth,
-                                    (i / kWidth - kCamera.cy) / kCamera.fy * depth, depth);
-      if (!model.isExact(pose, pose.T_W_S * point_C, from_image.grid().window())) continue;
-      pixels[i] = depth;
-      points.points.push_back(point_C.cast<float>());
+      if (is_exact[i]) {
+        points.points.push_back(points_C[i].cast<float>());
+      } else {
+        pixels[i] = 0.0f;
+      }
     }
     const DepthImage image{pixels.data(), DepthImage::Format::kFloat32, kWidth, kHeight,
                            kWidth * sizeof(float)};

@@ -33,7 +33,7 @@ class ScanMaker {
  public:
   ScanMaker(const Setting& setting, test::Random* random) : setting_(setting), random_(*random) {}
 
-  /// A scan of which the oracle knows everything; rays that rounding decides are left out.
+  /// A scan of which the oracle knows everything; what rounding decides is left out.
   RangeData make(int rays, RayOracle* oracle) {
     RangeData scan;
     scan.origin = setting_.resolution * origin();
@@ -47,6 +47,9 @@ class ScanMaker {
       if (!(is_return ? oracle->addReturn(origin, end) : oracle->addMiss(origin, end))) continue;
       (is_return ? scan.returns : scan.misses).push_back(offset);
     }
+    const std::optional<int> half_side = oracle->halfSideOfCube(origin);
+    if (!half_side) return make(rays, &(*oracle = RayOracle(setting_.box, setting_.end_cut)));
+    oracle->cast(origin, *half_side);
     return scan;
   }
 
@@ -149,17 +152,30 @@ std::string describe(const Setting& s, int round) {
          std::to_string(static_cast<int>(s.place));
 }
 
+/// Boxes that the cube of directions does not fill.
+Setting longSetting(test::Random& random) {
+  Setting setting = randomSetting(random);
+  VoxelIndex size(test::uniformInt(random, 600, 1000), test::uniformInt(random, 1, 5),
+                  test::uniformInt(random, 1, 70));
+  if (test::chance(random, 0.5)) std::swap(size.x(), size.y());
+  setting.box.max = setting.box.min + size;
+  return setting;
+}
+
 class RayCasterPropertyTest : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(RayCasterPropertyTest, AgreesWithTheExactReference) {
   test::Random random(GetParam());
   ScanMask mask;
   for (int round = 0; round < test::effort(120); ++round) {
-    const Setting setting = randomSetting(random);
+    const bool is_long = test::chance(random, 0.05);
+    const Setting setting = is_long ? longSetting(random) : randomSetting(random);
     SCOPED_TRACE(describe(setting, round));
+    const bool is_dense = !is_long && test::chance(random, 0.1);
+    const int rays =
+        is_dense ? test::uniformInt(random, 100, 400) : test::uniformInt(random, 1, 25);
     RayOracle oracle(setting.box, setting.end_cut);
-    const RangeData scan =
-        ScanMaker(setting, &random).make(test::uniformInt(random, 1, 25), &oracle);
+    const RangeData scan = ScanMaker(setting, &random).make(rays, &oracle);
     RayCaster caster(VoxelLattice(setting.resolution), setting.end_cut);
     const RayCount count = caster.cast(scan, setting.box, &mask);
     ASSERT_EQ(mask.box(), setting.box);

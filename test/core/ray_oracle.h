@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -64,7 +65,8 @@ inline bool nearFace(const ExactPoint& point, int ignored_axis = -1) {
   return false;
 }
 
-/// What a scan must and may mark in a box.
+/// What a scan must and may mark in a box. Rays are collected first: the grid of directions to
+/// which they are rounded depends on all of them. All rays have one origin.
 class RayOracle {
  public:
   RayOracle(const VoxelBox& box, long double end_cut)
@@ -76,15 +78,33 @@ class RayOracle {
     const VoxelIndex v = voxelOf(end);
     if (!box_.contains(v)) return addLeaving(origin, end);
     hits_.insert(v);
-    addSegment(origin, centreOf(v), end_cut_);
     return true;
   }
   bool addMiss(const ExactPoint& origin, const ExactPoint& end) {
     if (nearFace(end)) return false;
     const VoxelIndex v = voxelOf(end);
     if (!box_.contains(v)) return addLeaving(origin, end);
-    addMissIn(v, origin);
+    miss_ends_.insert(v);
     return true;
+  }
+  /// Half the side of the cube to which directions are rounded; nothing where rounding decides it.
+  std::optional<int> halfSideOfCube(const ExactPoint& origin) const {
+    constexpr long double kSlack = 0.25L;
+    constexpr int kMost = 512;
+    long double farthest = 0.0L;
+    for (const auto* ends : {&hits_, &miss_ends_}) {
+      for (const VoxelIndex& v : *ends) farthest = std::max(farthest, major(centreOf(v) - origin));
+    }
+    const auto half_side = static_cast<int>(farthest + kSlack);
+    if (half_side != static_cast<int>(farthest + kSlack - kRayTolerance)) return std::nullopt;
+    if (half_side != static_cast<int>(farthest + kSlack + kRayTolerance)) return std::nullopt;
+    return std::min(half_side + 1, kMost);
+  }
+  /// To be called once, after the last ray: all of them begin at the origin.
+  void cast(const ExactPoint& origin, int half_side) {
+    origin_ = origin;
+    for (const VoxelIndex& v : hits_) addRay(v, end_cut_, half_side);
+    for (const VoxelIndex& v : miss_ends_) addRay(v, 0.0L, half_side);
   }
 
   const VoxelSet& hits() const { return hits_; }
@@ -109,31 +129,76 @@ class RayOracle {
     // The exit lies on a face of the box: its voxel is the one inside.
     VoxelIndex last = voxelOf(exit);
     last[exit_axis] = end[exit_axis] > origin[exit_axis] ? top[exit_axis] : box_.min[exit_axis];
-    addMissIn(last, origin);
+    miss_ends_.insert(last);
     return true;
   }
 
-  void addMissIn(const VoxelIndex& v, const ExactPoint& origin) {
-    miss_ends_.insert(v);
-    addSegment(origin, centreOf(v), 0.0L);
+  /// Distance of an end from the origin along the horizontal axis along which it is farther.
+  static long double major(const ExactPoint& ray) {
+    return std::max(std::abs(ray.x()), std::abs(ray.y()));
+  }
+  /// Whether the direction of a ray is rounded; with a tolerance for either answer.
+  bool isRounded(const ExactPoint& ray, int half_side, long double tolerance) const {
+    const auto from_low = (origin_ - box_.min.cast<long double>()).array();
+    const auto to_high = (box_.max.cast<long double>() - origin_).array();
+    return (from_low >= -tolerance).all() && (to_high >= -tolerance).all() && major(ray) > 0.0L &&
+           major(ray) <= half_side + tolerance && std::abs(ray.z()) <= major(ray) + tolerance;
   }
 
-  void addSegment(const ExactPoint& from, const ExactPoint& centre, long double cut) {
-    const long double length = (centre - from).norm();
+  /// The whole numbers to which a coordinate may be rounded.
+  static std::vector<long double> roundings(long double value) {
+    std::vector<long double> all = {std::floor(value + 0.5L - kRayTolerance)};
+    const long double other = std::floor(value + 0.5L + kRayTolerance);
+    if (other != all[0]) all.push_back(other);
+    return all;
+  }
+
+  /// The ends that the ray may be rounded to; one, where rounding errors decide nothing.
+  std::vector<ExactPoint> roundedEnds(const ExactPoint& ray, int half_side) const {
+    std::vector<ExactPoint> ends;
+    if (!isRounded(ray, half_side, -kRayTolerance)) ends.push_back(origin_ + ray);
+    if (!isRounded(ray, half_side, kRayTolerance)) return ends;
+    for (int axis = 0; axis < 2; ++axis) {
+      const int minor = 1 - axis;
+      const long double distance = std::abs(ray[axis]);
+      if (distance < std::abs(ray[minor]) - kRayTolerance) continue;
+      for (const long double j : roundings(ray[minor] / distance * half_side)) {
+        for (const long double k : roundings(ray.z() / distance * half_side)) {
+          ExactPoint rounded = ray;
+          rounded[minor] = j / half_side * distance;
+          rounded.z() = k / half_side * distance;
+          ends.push_back(origin_ + rounded);
+        }
+      }
+    }
+    return ends;
+  }
+
+  void addRay(const VoxelIndex& v, long double cut, int half_side) {
+    const ExactPoint ray = centreOf(v) - origin_;
+    const long double length = ray.norm();
     if (cut > 0.0L && cut >= length) return;
-    const ExactPoint to = cut > 0.0L ? (centre - (centre - from) * (cut / length)).eval() : centre;
+    const std::vector<ExactPoint> ends = roundedEnds(ray, half_side);
+    for (const ExactPoint& end : ends) {
+      const ExactPoint to = cut > 0.0L ? (end - (end - origin_) * (cut / length)).eval() : end;
+      addSegment(to, ends.size() == 1);
+    }
+  }
+
+  void addSegment(const ExactPoint& to, bool is_certain) {
     const VoxelIndex border = VoxelIndex::Ones();
-    const VoxelBox around{voxelOf(from.cwiseMin(to)) - border,
-                          voxelOf(from.cwiseMax(to)) + 2 * border};
+    const VoxelBox around{voxelOf(origin_.cwiseMin(to)) - border,
+                          voxelOf(origin_.cwiseMax(to)) + 2 * border};
     forEachVoxel(around.intersection(box_), [&](const VoxelIndex& v) {
       const VoxelBox voxel{v, v + border};
-      if (overlap(from, to, voxel, kRayTolerance)) may_free_.mark(v);
-      if (overlap(from, to, voxel, -kRayTolerance)) must_free_.mark(v);
+      if (overlap(origin_, to, voxel, kRayTolerance)) may_free_.mark(v);
+      if (is_certain && overlap(origin_, to, voxel, -kRayTolerance)) must_free_.mark(v);
     });
   }
 
   VoxelBox box_;
   long double end_cut_;
+  ExactPoint origin_ = ExactPoint::Zero();
   VoxelSet hits_, miss_ends_;
   VoxelField must_free_, may_free_;
 };

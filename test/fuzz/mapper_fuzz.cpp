@@ -166,16 +166,20 @@ class Session {
   void seePoints() {
     constexpr int kMostPoints = 12;
     const ScanPose pose = slide();
-    PointScan scan;
-    std::vector<Eigen::Vector3d> points_W;
+    std::vector<Eigen::Vector3d> points_S, all_W;
     for (int i = bytes_.integer(0, kMostPoints); i > 0; --i) {
       const double reach = bytes_.flag() ? 2.0 : 12.0;
-      const Eigen::Vector3d point_S(bytes_.real(-reach, reach), bytes_.real(-reach, reach),
-                                    bytes_.real(-reach, reach));
-      const Eigen::Vector3d point_W = pose.T_W_S * point_S;
-      if (!model_.isExact(pose, point_W, mapper_.grid().window())) continue;
-      scan.points.push_back(point_S.cast<float>());
-      points_W.push_back(point_W);
+      points_S.emplace_back(bytes_.real(-reach, reach), bytes_.real(-reach, reach),
+                            bytes_.real(-reach, reach));
+      all_W.push_back(pose.T_W_S * points_S.back());
+    }
+    const std::vector<bool> is_exact = model_.exactRays(pose, all_W, mapper_.grid().window());
+    PointScan scan;
+    std::vector<Eigen::Vector3d> points_W;
+    for (std::size_t i = 0; i < all_W.size(); ++i) {
+      if (!is_exact[i]) continue;
+      scan.points.push_back(points_S[i].cast<float>());
+      points_W.push_back(all_W[i]);
     }
     for (int times = bytes_.integer(1, 3); times > 0; --times) {
       const ScanReport report = mapper_.integrate(scan, pose);
@@ -191,15 +195,23 @@ class Session {
     const int width = bytes_.integer(1, kMostPixels), height = bytes_.integer(1, kMostPixels);
     const PinholeIntrinsics camera{bytes_.real(1.0, 9.0), bytes_.real(1.0, 9.0),
                                    bytes_.real(0.0, 5.0), bytes_.real(0.0, 5.0)};
-    std::vector<float> pixels(static_cast<std::size_t>(width) * height, 0.0f);
-    std::vector<Eigen::Vector3d> points_W;
+    std::vector<float> pixels;
+    std::vector<Eigen::Vector3d> all_W;
     for (int i = 0; i < width * height; ++i) {
       const auto depth = static_cast<float>(bytes_.real(0.2, 12.0));
       const Eigen::Vector3d point_C((i % width - camera.cx) / camera.fx * depth,
                                     (i / width - camera.cy) / camera.fy * depth, depth);
-      if (!model_.isExact(pose, pose.T_W_S * point_C, mapper_.grid().window())) continue;
-      pixels[i] = depth;
-      points_W.push_back(pose.T_W_S * point_C);
+      pixels.push_back(depth);
+      all_W.push_back(pose.T_W_S * point_C);
+    }
+    const std::vector<bool> is_exact = model_.exactRays(pose, all_W, mapper_.grid().window());
+    std::vector<Eigen::Vector3d> points_W;
+    for (std::size_t i = 0; i < all_W.size(); ++i) {
+      if (is_exact[i]) {
+        points_W.push_back(all_W[i]);
+      } else {
+        pixels[i] = 0.0f;
+      }
     }
     mapper_.integrate(
         {pixels.data(), DepthImage::Format::kFloat32, width, height, width * sizeof(float)}, camera,

@@ -161,11 +161,13 @@ class Soak {
 
     PointScan exact, all;
     std::vector<Eigen::Vector3d> points_W;
-    for (const Eigen::Vector3d& point_W : journey_.look()) {
-      all.points.push_back((pose.T_W_S.inverse() * point_W).cast<float>());
-      if (!model_.isExact(pose, point_W, window)) continue;  // rounding decides
+    const std::vector<Eigen::Vector3d> all_W = journey_.look();
+    const std::vector<bool> is_exact = model_.exactRays(pose, all_W, window);
+    for (std::size_t i = 0; i < all_W.size(); ++i) {
+      all.points.push_back((pose.T_W_S.inverse() * all_W[i]).cast<float>());
+      if (!is_exact[i]) continue;
       exact.points.push_back(all.points.back());
-      points_W.push_back(point_W);
+      points_W.push_back(all_W[i]);
     }
     const ScanReport report = small_.integrate(exact, pose);
     model_.integrate(pose, points_W, window);

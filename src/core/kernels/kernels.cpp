@@ -1,6 +1,7 @@
 #include "fiimap/kernels.h"
 
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -22,12 +23,21 @@ const Kernels& chosenKernels() {
 
 }  // namespace
 
-void RayEnds::reserve(int count) {
+void RayEnds::begin(int count) {
+  size = 0;
+  low[0] = low[1] = std::numeric_limits<std::int32_t>::max();
+  high[0] = high[1] = -1;
   const std::size_t room = static_cast<std::size_t>(count) + kVectorRoom;
-  if (column.size() >= room) return;
-  column.resize(room);
-  z.resize(room);
-  first.resize(room);
+  if (x.size() >= room) return;
+  for (auto* list : {&x, &y, &z, &first}) list->resize(room);
+}
+
+void CubeRays::reserve(int count) {
+  const std::size_t room = static_cast<std::size_t>(count) + kVectorRoom;
+  if (slice.size() >= room) return;
+  slice.resize(room);
+  cell.resize(room);
+  reach.resize(room);
 }
 
 void ColumnWalk::reserve(int slabs) {
@@ -35,6 +45,7 @@ void ColumnWalk::reserve(int slabs) {
   if (column.size() >= room) return;
   column.resize(room);
   t.resize(room);
+  first_of_slab.resize(room);
 }
 
 const Kernels& kernels() {

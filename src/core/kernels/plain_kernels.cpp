@@ -6,8 +6,9 @@
 namespace fiimap {
 
 const Kernels& plainKernels() {
-  static const Kernels kernels{"plain",     plain::readDepths, plain::projectRow, plain::listEnds,
-                               plain::walk, plain::freeFan,    plain::observe};
+  static const Kernels kernels{"plain",         plain::readDepths, plain::projectRow,
+                               plain::listEnds, plain::roundRays,  plain::walk,
+                               plain::freeRuns, plain::observe};
   return kernels;
 }
 

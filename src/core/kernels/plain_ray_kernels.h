@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "fiimap/bit_column.h"
@@ -27,8 +28,7 @@ inline float exitOfBox(const EndPoints& points, const float* p) {
 inline void listEnds(const EndPoints& points, RayEnds* ends) {
   constexpr std::int32_t kNone = -1;
   const float* const offset[3] = {points.x, points.y, points.z};
-  ends->reserve(points.count);
-  ends->size = 0;
+  ends->begin(points.count);
   float p[3][kBlock];
   // The voxel of the last point of the block before, then those of the block; kNone: outside.
   std::int32_t voxel[3][kBlock + 1] = {{kNone}, {kNone}, {kNone}};
@@ -60,13 +60,50 @@ inline void listEnds(const EndPoints& points, RayEnds* ends) {
           v[axis] = std::clamp(static_cast<std::int32_t>(at), 0, points.size[axis] - 1);
         }
       }
-      ends->column[ends->size] = (v[0] * points.size[1] + v[1]) * points.words;
+      for (int axis = 0; axis < 2; ++axis) {
+        ends->low[axis] = std::min(ends->low[axis], v[axis]);
+        ends->high[axis] = std::max(ends->high[axis], v[axis]);
+      }
+      ends->x[ends->size] = v[0];
+      ends->y[ends->size] = v[1];
       ends->z[ends->size] = v[2] + (leaves ? RayEnds::kLeavesBox : 0);
       ends->first[ends->size] = first + j;
       ++ends->size;
     }
   }
   ends->first[ends->size] = points.count;
+}
+
+inline void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_t* index,
+                      int count, float cut, CubeRays* rays) {
+  rays->reserve(count);
+  const float half_side = static_cast<float>(cube.half_side);
+  const float to_cell = half_side + 0.5f;  // of a coordinate in the middle of the cell
+  const int last_cell = cube.side() - 1;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t k = index[i];
+    const std::int32_t z = ends.z[k] & (RayEnds::kLeavesBox - 1);
+    const float x = static_cast<float>(ends.x[k]) + 0.5f - cube.origin[0];
+    const float y = static_cast<float>(ends.y[k]) + 0.5f - cube.origin[1];
+    const float rise = static_cast<float>(z) + 0.5f - cube.origin[2];
+    const bool is_x = std::abs(x) >= std::abs(y);
+    const float major = is_x ? x : y;
+    const float distance = std::abs(major);
+    const bool is_rounded =
+        (distance > 0.0f) & (distance <= half_side) & (std::abs(rise) <= distance);
+    const float to_face = half_side / distance;
+    const float length = std::sqrt(x * x + y * y + rise * rise);
+    const int face = (is_x ? 0 : 2) + (major < 0.0f ? 1 : 0);
+    const auto cellAt = [&](float at) {
+      return std::min(std::max(static_cast<int>(at * to_face + to_cell), 0), last_cell);
+    };
+    rays->slice[i] = CubeRays::kStraight;
+    rays->cell[i] = 0;
+    rays->reach[i] = distance * (1.0f - cut / length);
+    if (!is_rounded) continue;
+    rays->slice[i] = face * cube.side() + cellAt(is_x ? y : x);
+    rays->cell[i] = cellAt(rise);
+  }
 }
 
 inline void walk(const ColumnLine& line, ColumnWalk* walk) {
@@ -81,15 +118,15 @@ inline void walk(const ColumnLine& line, ColumnWalk* walk) {
     return std::min(std::max(minor, 0), line.last_minor_cell);
   };
   int k = 0;
-  border[0] = clamp(line.first_border * line.t_per_major, line.start_t, 1.0f);
+  border[0] = clamp(line.first_border * line.t_per_major, line.start_t, line.end_t);
   cell[0] = cellAt(border[0]);
   for (int first = 0; first < line.slabs; first += kBlock) {
     const int block = std::min(kBlock, line.slabs - first);
     for (int j = 1; j <= kBlock; ++j) {
       const float distance = line.first_border + static_cast<float>(first + j) * line.major_step;
-      border[j] = clamp(distance * line.t_per_major, line.start_t, 1.0f);
+      border[j] = clamp(distance * line.t_per_major, line.start_t, line.end_t);
     }
-    border[block] = first + block == line.slabs ? 1.0f : border[block];
+    border[block] = first + block == line.slabs ? line.end_t : border[block];
     for (int j = 1; j <= kBlock; ++j) cell[j] = cellAt(border[j]);
     for (int j = 0; j < kBlock; ++j) {
       const float at = (static_cast<float>(cell[j]) + line.minor_border) * line.t_per_minor;
@@ -97,6 +134,7 @@ inline void walk(const ColumnLine& line, ColumnWalk* walk) {
     }
     std::int32_t slab = line.first_column + first * line.major_offset;
     for (int j = 0; j < block; ++j, slab += line.major_offset) {
+      walk->first_of_slab[first + j] = k;
       // Both columns of the slab are written; the second is kept when there is one.
       const std::int32_t first_of_slab = slab + cell[j] * line.minor_offset;
       column[k] = first_of_slab;
@@ -108,7 +146,8 @@ inline void walk(const ColumnLine& line, ColumnWalk* walk) {
     border[0] = border[kBlock];
     cell[0] = cell[kBlock];
   }
-  t[k] = 1.0f;
+  t[k] = line.end_t;
+  walk->first_of_slab[line.slabs] = k;
   walk->size = k;
 }
 
@@ -130,43 +169,27 @@ constexpr RunMasks makeRunMasks() {
 
 constexpr RunMasks kRunMasks = makeRunMasks();
 
-inline void freeFan(const FanPart& fan, int height, std::uint64_t* free) {
-  const int first_word = std::max(static_cast<int>(fan.lowest), 0) / kWordBits;
-  const int last_word =
-      std::min(std::max(static_cast<int>(fan.highest), 0), height - 1) / kWordBits;
-  // Truncation is the floor, because negative heights are cut off.
-  const float origin_low = fan.origin_z;
-  const float origin_end = fan.origin_z + 1.0f;
-  const float rise_low = fan.rise_low;
-  const float rise_high = fan.rise_high;
-  std::int32_t low[kBlock], end[kBlock];
-  for (int first = 0; first < fan.columns; first += kBlock) {
-    const int count = std::min(kBlock, fan.columns - first);
-    const float* const t_low = fan.t_low + first;
-    const float* const t_high = fan.t_high + first;
-    const std::int32_t* const column = fan.column + first;
-    for (int k = 0; k < kBlock; ++k) {
-      low[k] = static_cast<std::int32_t>(std::max(origin_low + rise_low * t_low[k], 0.0f));
-    }
-    for (int k = 0; k < kBlock; ++k) {
-      const auto above =
-          static_cast<std::int32_t>(std::max(origin_end + rise_high * t_high[k], 0.0f));
-      end[k] = std::min(above, height);
-    }
-    for (int w = first_word; w <= last_word; ++w) {
-      std::uint64_t* const word = free + w;
-      const int base = w * kWordBits;
-      if (first_word == last_word && base == 0) {
-        for (int k = 0; k < count; ++k) {
-          if (low[k] < end[k]) word[column[k]] |= kRunMasks.from[low[k]] & kRunMasks.below[end[k]];
-        }
-        break;
+inline void freeRuns(const RayRuns& part, int height, std::uint64_t* free) {
+  for (int k = 0; k < part.columns; ++k) {
+    std::uint64_t* const words = free + part.column[k];
+    const float t_in = part.t[k];
+    const float t_out = part.t[k + 1];
+    for (int r = 0; r < part.runs; ++r) {
+      const float low = std::min(part.rise_low[r] * t_in, part.rise_low[r] * t_out);
+      const float high = std::max(part.rise_high[r] * t_in, part.rise_high[r] * t_out);
+      // Truncation is the floor, because negative heights are cut off.
+      const int from = static_cast<int>(std::max(part.origin_z + low, 0.0f));
+      const int above = static_cast<int>(std::max(part.origin_z + high, -1.0f) + 1.0f);
+      const int end = std::min(above, height);
+      if (from >= end) continue;
+      const int first = from / kWordBits;
+      const int last = (end - 1) / kWordBits;
+      std::uint64_t mask = kRunMasks.from[from % kWordBits];
+      for (int w = first; w < last; ++w) {
+        words[w] |= mask;
+        mask = ~std::uint64_t{0};
       }
-      for (int k = 0; k < count; ++k) {
-        const int from = std::max(low[k] - base, 0);
-        const int below = std::min(end[k] - base, kWordBits);
-        if (from < below) word[column[k]] |= kRunMasks.from[from] & kRunMasks.below[below];
-      }
+      words[last] |= mask & kRunMasks.below[end - last * kWordBits];
     }
   }
 }

@@ -72,41 +72,131 @@ HWY_INLINE EndVoxels endVoxels(const EndPoints& points, int i) {
   return ends;
 }
 
+/// Smallest and largest x and y of what was listed.
+struct EndBounds {
+  IntVector low_x, low_y, high_x, high_y;
+};
+
 /// Appends the ends of the rays in `listed`, of those from `first` on.
-HWY_INLINE void appendEnds(const EndPoints& points, const EndVoxels& v, int first,
-                           hn::Mask<Ints> listed, RayEnds* ends) {
+HWY_INLINE void appendEnds(IntVector x, IntVector y, IntVector z, int first, hn::Mask<Ints> listed,
+                           EndBounds* bounds, RayEnds* ends) {
   const Ints d;
-  const auto index = hn::Add(hn::Mul(v.x, hn::Set(d, points.size[1])), v.y);
-  const auto column = hn::Mul(index, hn::Set(d, points.words));
-  const auto leaving = hn::RebindMask(d, v.leaving);
-  const auto z = hn::Or(v.z, hn::IfThenElseZero(leaving, hn::Set(d, RayEnds::kLeavesBox)));
-  pack(d, column, listed, ends->column.data() + ends->size);
-  pack(d, hn::Iota(d, first), listed, ends->first.data() + ends->size);
-  ends->size += pack(d, z, listed, ends->z.data() + ends->size);
+  bounds->low_x = hn::Min(bounds->low_x, hn::IfThenElse(listed, x, bounds->low_x));
+  bounds->low_y = hn::Min(bounds->low_y, hn::IfThenElse(listed, y, bounds->low_y));
+  bounds->high_x = hn::Max(bounds->high_x, hn::IfThenElse(listed, x, bounds->high_x));
+  bounds->high_y = hn::Max(bounds->high_y, hn::IfThenElse(listed, y, bounds->high_y));
+  std::int32_t* const to_x = ends->x.data() + ends->size;
+  std::int32_t* const to_y = ends->y.data() + ends->size;
+  std::int32_t* const to_z = ends->z.data() + ends->size;
+  std::int32_t* const to_first = ends->first.data() + ends->size;
+  if constexpr (kPacksLanes) {
+    pack(d, x, listed, to_x);
+    pack(d, y, listed, to_y);
+    pack(d, hn::Iota(d, first), listed, to_first);
+    ends->size += pack(d, z, listed, to_z);
+    return;
+  }
+  // Most vectors list one or two.
+  HWY_ALIGN std::int32_t all[3][hn::MaxLanes(Ints())];
+  hn::Store(x, d, all[0]);
+  hn::Store(y, d, all[1]);
+  hn::Store(z, d, all[2]);
+  int count = 0;
+  for (std::uint64_t rest = maskBits(d, listed); rest != 0; rest &= rest - 1) {
+    const int i = __builtin_ctzll(rest);
+    to_x[count] = all[0][i];
+    to_y[count] = all[1][i];
+    to_z[count] = all[2][i];
+    to_first[count] = first + i;
+    ++count;
+  }
+  ends->size += count;
 }
 
 void listEnds(const EndPoints& points, RayEnds* ends) {
   const Ints d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  ends->reserve(points.count);
-  ends->size = 0;
-  if (points.count == 0) {
-    ends->first[0] = 0;
-    return;
-  }
-  appendEnds(points, endVoxels(points, 0), 0, hn::FirstN(d, 1), ends);
-  for (int i = 1; i < points.count; i += lanes) {
-    // The points before are computed again: this is cheaper than to hand lanes over.
-    const EndVoxels before = endVoxels(points, i - 1);
+  ends->begin(points.count);
+  EndBounds bounds{hn::Set(d, ends->low[0]), hn::Set(d, ends->low[1]), hn::Set(d, ends->high[0]),
+                   hn::Set(d, ends->high[1])};
+  // Lane i of the result is lane i - 1, lane 0 the last one.
+  const auto before_each =
+      hn::IndicesFromVec(d, hn::And(hn::Iota(d, lanes - 1), hn::Set(d, lanes - 1)));
+  const auto lane_0 = hn::FirstN(d, 1);
+  auto last_x = hn::Set(d, -1);  // no end's, so that the first one is listed
+  auto last_y = last_x;
+  auto last_z = last_x;
+  for (int i = 0; i < points.count; i += lanes) {
     const EndVoxels now = endVoxels(points, i);
-    const auto elsewhere =
-        hn::Or(hn::Or(hn::Ne(now.x, before.x), hn::Ne(now.y, before.y)), hn::Ne(now.z, before.z));
-    const auto leaves_alone = hn::RebindMask(d, hn::Xor(now.leaving, before.leaving));
-    const auto changed = hn::Or(elsewhere, leaves_alone);
+    const auto leaving = hn::RebindMask(d, now.leaving);
+    const auto flagged = hn::Or(now.z, hn::Set(d, RayEnds::kLeavesBox));
+    const auto z = hn::IfThenElse(leaving, flagged, now.z);
+    const auto rotated_x = hn::TableLookupLanes(now.x, before_each);
+    const auto rotated_y = hn::TableLookupLanes(now.y, before_each);
+    const auto rotated_z = hn::TableLookupLanes(z, before_each);
+    const auto changed = hn::Or(hn::Or(hn::Ne(now.x, hn::IfThenElse(lane_0, last_x, rotated_x)),
+                                       hn::Ne(now.y, hn::IfThenElse(lane_0, last_y, rotated_y))),
+                                hn::Ne(z, hn::IfThenElse(lane_0, last_z, rotated_z)));
+    last_x = rotated_x;
+    last_y = rotated_y;
+    last_z = rotated_z;
     const auto listed = hn::And(changed, hn::FirstN(d, std::min(lanes, points.count - i)));
-    if (!hn::AllFalse(d, listed)) appendEnds(points, now, i, listed, ends);
+    if (!hn::AllFalse(d, listed)) appendEnds(now.x, now.y, z, i, listed, &bounds, ends);
   }
   ends->first[ends->size] = points.count;
+  ends->low[0] = hn::GetLane(hn::MinOfLanes(d, bounds.low_x));
+  ends->low[1] = hn::GetLane(hn::MinOfLanes(d, bounds.low_y));
+  ends->high[0] = hn::GetLane(hn::MaxOfLanes(d, bounds.high_x));
+  ends->high[1] = hn::GetLane(hn::MaxOfLanes(d, bounds.high_y));
+}
+
+void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_t* index, int count,
+               float cut, CubeRays* rays) {
+  const Floats f;
+  const Ints d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  rays->reserve(count);
+  const auto half = hn::Set(f, 0.5f);
+  const auto half_side = hn::Set(f, static_cast<float>(cube.half_side));
+  const auto to_cell = hn::Add(half_side, half);
+  const auto last_cell = hn::Set(d, cube.side() - 1);
+  const auto toCenter = [&](IntVector cell, float origin) HWY_ATTR {
+    return hn::Sub(hn::Add(hn::ConvertTo(f, cell), half), hn::Set(f, origin));
+  };
+  for (int i = 0; i < count; i += lanes) {
+    // What lies beyond the last one are indices of an earlier scan, or zeros.
+    const auto in_list = hn::FirstN(d, std::min(lanes, count - i));
+    const auto k = hn::IfThenElseZero(in_list, hn::LoadU(d, index + i));
+    const auto height =
+        hn::And(hn::GatherIndex(d, ends.z.data(), k), hn::Set(d, RayEnds::kLeavesBox - 1));
+    const auto x = toCenter(hn::GatherIndex(d, ends.x.data(), k), cube.origin[0]);
+    const auto y = toCenter(hn::GatherIndex(d, ends.y.data(), k), cube.origin[1]);
+    const auto rise = toCenter(height, cube.origin[2]);
+    const auto is_x = hn::Ge(hn::Abs(x), hn::Abs(y));
+    const auto major = hn::IfThenElse(is_x, x, y);
+    const auto minor = hn::IfThenElse(is_x, y, x);
+    const auto distance = hn::Abs(major);
+    const auto is_rounded =
+        hn::And(hn::And(hn::Gt(distance, hn::Zero(f)), hn::Le(distance, half_side)),
+                hn::Le(hn::Abs(rise), distance));
+    const auto to_face = hn::Div(half_side, distance);
+    const auto length =
+        hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(rise, rise)));
+    const auto left = hn::Sub(hn::Set(f, 1.0f), hn::Div(hn::Set(f, cut), length));
+    const auto cellAt = [&](FloatVector at) HWY_ATTR {
+      const auto cell = hn::ConvertTo(d, hn::Add(hn::Mul(at, to_face), to_cell));
+      return hn::Min(hn::Max(cell, hn::Zero(d)), last_cell);
+    };
+    const auto is_second = hn::RebindMask(d, hn::Lt(major, hn::Zero(f)));
+    const auto face = hn::Add(hn::IfThenElse(hn::RebindMask(d, is_x), hn::Zero(d), hn::Set(d, 2)),
+                              hn::IfThenElseZero(is_second, hn::Set(d, 1)));
+    const auto slice = hn::Add(hn::Mul(face, hn::Set(d, cube.side())), cellAt(minor));
+    const auto rounded = hn::RebindMask(d, is_rounded);
+    hn::StoreU(hn::IfThenElse(rounded, slice, hn::Set(d, CubeRays::kStraight)), d,
+               rays->slice.data() + i);
+    hn::StoreU(hn::IfThenElseZero(rounded, cellAt(rise)), d, rays->cell.data() + i);
+    hn::StoreU(hn::Mul(distance, left), f, rays->reach.data() + i);
+  }
 }
 
 void walk(const ColumnLine& line, ColumnWalk* walk) {
@@ -120,7 +210,7 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
   const int slabs = line.slabs;
 
   // Out of the loop by hand: for all that the compiler knows, what it writes could be `line`.
-  const auto one = hn::Set(f, 1.0f);
+  const auto end_t = hn::Set(f, line.end_t);
   const auto first_border = hn::Set(f, line.first_border);
   const auto major_step = hn::Set(f, line.major_step);
   const auto t_per_major = hn::Set(f, line.t_per_major);
@@ -139,13 +229,15 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
   /// Where the rays cross the border before slab i.
   const auto borderT = [&](IntVector i) HWY_ATTR {
     const auto distance = hn::Add(first_border, hn::Mul(hn::ConvertTo(f, i), major_step));
-    const auto inside = hn::Min(hn::Max(hn::Mul(distance, t_per_major), start_t), one);
-    return hn::IfThenElse(hn::RebindMask(f, hn::Eq(i, end)), one, inside);
+    const auto inside = hn::Min(hn::Max(hn::Mul(distance, t_per_major), start_t), end_t);
+    return hn::IfThenElse(hn::RebindMask(f, hn::Eq(i, end)), end_t, inside);
   };
   const auto minorCell = [&](FloatVector t) HWY_ATTR {
     const auto cell = hn::ConvertTo(d, hn::Add(minor_origin, hn::Mul(minor_direction, t)));
     return hn::Min(hn::Max(cell, hn::Zero(d)), last_minor_cell);
   };
+  // Each border of the minor axis that was crossed before a slab has added a column.
+  const auto first_cell = minorCell(borderT(hn::Zero(d)));
   std::size_t size = 0;
   for (int i = 0; i < slabs; i += lanes) {
     const auto slab = hn::Iota(d, i);
@@ -160,6 +252,8 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
     const auto t_second = hn::Min(hn::Max(crossing, t_in), t_out);
     const auto in_line = hn::Lt(slab, end);
     const auto has_second = hn::And(in_line, hn::Ne(cell, next_cell));
+    hn::StoreU(hn::Add(slab, hn::Abs(hn::Sub(cell, first_cell))), d,
+               walk->first_of_slab.data() + i);
 
     // Both columns of each slab side by side; the second is kept when there is one.
     HWY_ALIGN std::int32_t columns[2 * hn::MaxLanes(Ints())];
@@ -184,7 +278,8 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
       }
     }
   }
-  walk->t[size] = 1.0f;
+  walk->t[size] = line.end_t;
+  walk->first_of_slab[slabs] = static_cast<std::int32_t>(size);
   walk->size = static_cast<int>(size);
 }
 
@@ -204,48 +299,50 @@ HWY_INLINE WordVector runMask(Int32Vector from, Int32Vector below) {
   return hn::And(run, hn::BitCast(d, hn::PromoteTo(d64, filled)));
 }
 
-void freeFan(const FanPart& fan, int height, std::uint64_t* free) {
+void freeRuns(const RayRuns& part, int height, std::uint64_t* free) {
   const Floats f;
   const Ints d;
   const hn::Half<Ints> half;
   const Words d64;
   constexpr int kMaxLanes = hn::MaxLanes(Ints());
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const int first_word = std::max(static_cast<int>(fan.lowest), 0) / kWordBits;
-  const int last_word =
-      std::min(std::max(static_cast<int>(fan.highest), 0), height - 1) / kWordBits;
-  // Truncation is the floor, because negative heights are cut off.
-  const auto origin_low = hn::Set(f, fan.origin_z);
-  const auto origin_end = hn::Set(f, fan.origin_z + 1.0f);
-  const auto rise_low = hn::Set(f, fan.rise_low);
-  const auto rise_high = hn::Set(f, fan.rise_high);
+  const int words = (height + kWordBits - 1) / kWordBits;
+  const auto origin_z = hn::Set(f, part.origin_z);
+  const auto below_all = hn::Set(f, -1.0f);
+  const auto one = hn::Set(f, 1.0f);
   const auto zero = hn::Zero(f);
   const auto top = hn::Set(d, height);
   HWY_ALIGN std::uint64_t masks[kMaxLanes];
 
-  for (int k = 0; k < fan.columns; k += lanes) {
-    const auto t_low = hn::LoadU(f, fan.t_low + k);
-    const auto t_high = hn::LoadU(f, fan.t_high + k);
-    const auto low = hn::ConvertTo(d, hn::Max(hn::Add(origin_low, hn::Mul(rise_low, t_low)), zero));
-    const auto above =
-        hn::ConvertTo(d, hn::Max(hn::Add(origin_end, hn::Mul(rise_high, t_high)), zero));
-    const auto end = hn::Min(above, top);
-    const int count = std::min(lanes, fan.columns - k);
-    const std::int32_t* const column = fan.column + k;
-    for (int w = first_word; w <= last_word; ++w) {
+  for (int k = 0; k < part.columns; k += lanes) {
+    const auto t_in = hn::LoadU(f, part.t + k);
+    const auto t_out = hn::LoadU(f, part.t + k + 1);
+    const int count = std::min(lanes, part.columns - k);
+    const std::int32_t* const column = part.column + k;
+    for (int w = 0; w < words; ++w) {
       const auto base = hn::Set(d, w * kWordBits);
-      const auto from = hn::Max(hn::Sub(low, base), hn::Zero(d));
-      const auto below = hn::Min(hn::Sub(end, base), hn::Set(d, kWordBits));
-      if (hn::AllFalse(d, hn::Lt(from, below))) continue;
-      hn::Store(runMask(hn::LowerHalf(half, from), hn::LowerHalf(half, below)), d64, masks);
-      hn::Store(runMask(hn::UpperHalf(half, from), hn::UpperHalf(half, below)), d64,
-                masks + lanes / 2);
-      std::uint64_t* const word = free + w;
-      if (count == lanes) {
-        for (int j = 0; j < lanes; ++j) word[column[j]] |= masks[j];
-      } else {
-        for (int j = 0; j < count; ++j) word[column[j]] |= masks[j];
+      auto lower = hn::Zero(d64);  // masks of the first half of the columns
+      auto upper = hn::Zero(d64);
+      for (int r = 0; r < part.runs; ++r) {
+        const auto rise_low = hn::Set(f, part.rise_low[r]);
+        const auto rise_high = hn::Set(f, part.rise_high[r]);
+        const auto low = hn::Min(hn::Mul(rise_low, t_in), hn::Mul(rise_low, t_out));
+        const auto high = hn::Max(hn::Mul(rise_high, t_in), hn::Mul(rise_high, t_out));
+        // Truncation is the floor, because negative heights are cut off.
+        const auto from_z = hn::ConvertTo(d, hn::Max(hn::Add(origin_z, low), zero));
+        const auto above =
+            hn::ConvertTo(d, hn::Add(hn::Max(hn::Add(origin_z, high), below_all), one));
+        const auto end_z = hn::Min(above, top);
+        const auto from = hn::Max(hn::Sub(from_z, base), hn::Zero(d));
+        const auto below = hn::Min(hn::Sub(end_z, base), hn::Set(d, kWordBits));
+        if (words > 1 && hn::AllFalse(d, hn::Lt(from, below))) continue;
+        lower = hn::Or(lower, runMask(hn::LowerHalf(half, from), hn::LowerHalf(half, below)));
+        upper = hn::Or(upper, runMask(hn::UpperHalf(half, from), hn::UpperHalf(half, below)));
       }
+      hn::Store(lower, d64, masks);
+      hn::Store(upper, d64, masks + lanes / 2);
+      std::uint64_t* const word = free + w;
+      for (int j = 0; j < count; ++j) word[column[j]] |= masks[j];
     }
   }
 }
