@@ -7,7 +7,8 @@ namespace fiimap {
 // A bit column is an array of 64-bit words; bit i of word w stands for voxel 64 w + i of a
 // z-column.
 
-constexpr int kWordBits = 64;
+constexpr int kWordShift = 6;
+constexpr int kWordBits = 1 << kWordShift;
 
 /// Calls visit(bit) for every set bit of a column, lowest first.
 template <typename Visitor>

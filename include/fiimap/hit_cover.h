@@ -22,7 +22,7 @@ namespace fiimap {
 class HitCover {
  public:
   /// \param min_cover share of a voxel's face, 0 to 1; 0: a hit always wins.
-  explicit HitCover(double min_cover) : min_cover_(min_cover) {}
+  explicit HitCover(double min_cover) : min_cover_(min_cover), kernels_(kernels()) {}
 
   /// Takes the hit from the voxels that are free and that the returns cover too little.
   /// \param ends of the returns, all marked as hit where they do not leave the box.
@@ -45,6 +45,7 @@ class HitCover {
   Voxel& find(std::int32_t word, std::int32_t bit);
 
   double min_cover_;
+  const Kernels& kernels_;
   std::vector<std::int32_t> ends_;   // listed, of those handed in
   std::vector<Voxel> voxels_;        // in which they are
   std::vector<std::int32_t> table_;  // hash table of voxels_; its size is a power of two

@@ -95,6 +95,13 @@ struct RayEnds {
   void begin(int count);
 };
 
+/// A bit for each voxel of a box: x-major columns of words, bit 0 of the first is the lowest voxel.
+struct VoxelBits {
+  const std::uint64_t* words;
+  std::int32_t size_y;  ///< columns of the same x
+  std::int32_t words_per_column;
+};
+
 /// A cube around the origin of rays, whose side faces are divided into cells of a voxel edge: cell
 /// (0, 0) lies in the middle of a face.
 struct DirectionCube {
@@ -134,6 +141,12 @@ struct Kernels {
   /// Lists where rays end, in order. An end that is that of the ray before it may be left out: most
   /// are, because neighbouring pixels see neighbouring points.
   void (*listEnds)(const EndPoints& points, RayEnds* ends);
+
+  /// Lists the k in [first, last) for which the bit of the voxel ends[k] has a value. The bits of
+  /// ends of rays that leave the box count as 0. `listed` has room for kVectorRoom more.
+  /// \return how many.
+  int (*selectEnds)(const RayEnds& ends, int first, int last, const VoxelBits& bits, bool value,
+                    std::int32_t* listed);
 
   /// Finds the cells through which the rays to the voxels ends[index[i]], i < count, run. They end
   /// `cut` voxel edges before the voxel's centre; those that are shorter have a reach below 0.

@@ -57,6 +57,7 @@ class RayCaster {
   void touchColumns(ScanMask* mask) const;
   void beginCube();
   void markEnds(const RayEnds& ends, bool are_returns, ScanMask* mask, RayCount* count);
+  void markEnd(const RayEnds& ends, std::int32_t k, bool are_returns, ScanMask* mask);
   void castRays(const RayEnds& ends, std::vector<std::int32_t>* listed, float cut, ScanMask* mask);
   void castStraight(const RayEnds& ends, std::int32_t k, float cut, ScanMask* mask);
   void walkTo(int end_x, int end_y, const ScanMask& mask);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fiimap/bit_column.h"
+#include "fiimap/kernels.h"
 #include "fiimap/voxel_lattice.h"
 
 namespace fiimap {
@@ -39,6 +40,8 @@ class ScanMask {
   const std::uint64_t* column(Layer layer, int x, int y) const {
     return bits_[layer].data() + columnOffset(x, y);
   }
+  /// All words of a layer.
+  VoxelBits bits(Layer layer) const { return {bits_[layer].data(), size_.y(), words_}; }
   bool test(Layer layer, const VoxelIndex& v) const {
     return (column(layer, v.x(), v.y())[v.z() / kWordBits] >> (v.z() % kWordBits)) & 1u;
   }

@@ -34,19 +34,11 @@ std::size_t HitCover::dropSlivers(const RangeData& scan, const RayEnds& ends,
   return dropped;
 }
 
-/// The ends in free voxels. Without a branch, which would be guessed wrong often.
+/// The ends in free voxels.
 void HitCover::listPassed(const RayEnds& ends, const ScanMask& mask) {
-  const std::uint64_t* const free = mask.column(ScanMask::kFree, 0, 0);
-  ends_.resize(ends.size + 1);
-  int size = 0;
-  for (int k = 0; k < ends.size; ++k) {
-    const std::uint32_t z = static_cast<std::uint32_t>(ends.z[k]) % RayEnds::kLeavesBox;
-    const std::int32_t word = mask.columnOffset(ends.x[k], ends.y[k]) + z / kWordBits;
-    const std::uint64_t is_free = free[word] >> (z % kWordBits) & 1u;
-    ends_[size] = k;
-    size += static_cast<int>(is_free) & static_cast<int>(ends.z[k] < RayEnds::kLeavesBox);
-  }
-  ends_.resize(size);
+  ends_.resize(ends.size + kVectorRoom);
+  ends_.resize(kernels_.selectEnds(ends, 0, ends.size, mask.bits(ScanMask::kFree), true,
+                                   ends_.data()));
 }
 
 /// Of those listed, the ends of rays that are not so long that one return is cover enough.

@@ -100,21 +100,30 @@ void RayCaster::beginCube() {
 
 /// Marks the voxels in which rays end, and hands the rays on, one for each of them.
 void RayCaster::markEnds(const RayEnds& ends, bool are_returns, ScanMask* mask, RayCount* count) {
+  constexpr int kBlock = 64;  // ends whose voxels may be marked by others of the block, too
   cut_rays_.clear();
   whole_rays_.clear();
-  for (int k = 0; k < ends.size; ++k) {
-    if (ends.z[k] == RayEnds::kMissesBox) continue;
-    const bool is_return = are_returns && ends.z[k] < RayEnds::kLeavesBox;
-    const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
-    const int z = ends.z[k] % RayEnds::kLeavesBox;
-    const std::int32_t word = mask->columnOffset(ends.x[k], ends.y[k]) + z / kWordBits;
-    if (!mask->markEnd(layer, word, z % kWordBits)) continue;
-    (is_return ? cut_rays_ : whole_rays_).push_back(k);
+  const VoxelBits marked = mask->bits(are_returns ? ScanMask::kHit : ScanMask::kMissEnd);
+  std::int32_t unmarked[kBlock + kVectorRoom];
+  for (int first = 0; first < ends.size; first += kBlock) {
+    const int last = std::min(first + kBlock, ends.size);
+    const int listed = kernels_.selectEnds(ends, first, last, marked, false, unmarked);
+    for (int i = 0; i < listed; ++i) markEnd(ends, unmarked[i], are_returns, mask);
   }
   count->hits += cut_rays_.size();
   count->misses += whole_rays_.size();
   castRays(ends, &cut_rays_, end_cut_, mask);
   castRays(ends, &whole_rays_, 0.0f, mask);
+}
+
+void RayCaster::markEnd(const RayEnds& ends, std::int32_t k, bool are_returns, ScanMask* mask) {
+  if (ends.z[k] == RayEnds::kMissesBox) return;
+  const bool is_return = are_returns && ends.z[k] < RayEnds::kLeavesBox;
+  const ScanMask::Layer layer = is_return ? ScanMask::kHit : ScanMask::kMissEnd;
+  const int z = ends.z[k] % RayEnds::kLeavesBox;
+  const std::int32_t word = mask->columnOffset(ends.x[k], ends.y[k]) + z / kWordBits;
+  if (!mask->markEnd(layer, word, z % kWordBits)) return;
+  (is_return ? cut_rays_ : whole_rays_).push_back(k);
 }
 
 /// Casts the rays to ends[k] for each k that is listed.

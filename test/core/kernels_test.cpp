@@ -130,6 +130,35 @@ TEST_P(KernelsTest, ListEnds) {
   }
 }
 
+TEST_P(KernelsTest, SelectEnds) {
+  for (int round = 0; round < kRounds; ++round) {
+    const VoxelIndex size(test::uniformInt(random_, 1, 5), test::uniformInt(random_, 1, 7),
+                          test::uniformInt(random_, 1, 150));
+    const int words = (size.z() + kWordBits - 1) / kWordBits;
+    std::vector<std::uint64_t> plane(size.x() * size.y() * words);
+    for (std::uint64_t& word : plane) word = randomWord();
+    const int count = test::uniformInt(random_, 0, 60);
+    RayEnds ends;
+    ends.begin(count);
+    for (int k = 0; k < count; ++k) {
+      ends.x[k] = test::uniformInt(random_, 0, size.x() - 1);
+      ends.y[k] = test::uniformInt(random_, 0, size.y() - 1);
+      ends.z[k] = test::uniformInt(random_, 0, size.z() - 1);
+      if (test::chance(random_, 0.2)) ends.z[k] += RayEnds::kLeavesBox;
+    }
+    const int first = test::uniformInt(random_, 0, count);
+    for (const bool value : {false, true}) {
+      const auto run = [&](const Kernels& kernels) {
+        std::vector<std::int32_t> listed(count + kVectorRoom);
+        const VoxelBits bits{plane.data(), size.y(), words};
+        listed.resize(kernels.selectEnds(ends, first, count, bits, value, listed.data()));
+        return listed;
+      };
+      ASSERT_EQ(run(tested_), run(plain_));
+    }
+  }
+}
+
 TEST_P(KernelsTest, RoundRays) {
   for (int round = 0; round < kRounds; ++round) {
     const int count = test::uniformInt(random_, 0, 60);

@@ -7,7 +7,7 @@ namespace fiimap {
 
 const Kernels& plainKernels() {
   static const Kernels kernels{"plain",         plain::readDepths, plain::projectRow,
-                               plain::listEnds, plain::roundRays,  plain::walk,
+                               plain::listEnds, plain::selectEnds, plain::roundRays,  plain::walk,
                                plain::freeRuns, plain::observe};
   return kernels;
 }

@@ -74,6 +74,21 @@ inline void listEnds(const EndPoints& points, RayEnds* ends) {
   ends->first[ends->size] = points.count;
 }
 
+/// Without a branch, which would be guessed wrong often.
+inline int selectEnds(const RayEnds& ends, int first, int last, const VoxelBits& bits, bool value,
+                      std::int32_t* listed) {
+  int count = 0;
+  for (int k = first; k < last; ++k) {
+    const auto z = static_cast<std::uint32_t>(ends.z[k]) % RayEnds::kLeavesBox;
+    const std::int32_t column = (ends.x[k] * bits.size_y + ends.y[k]) * bits.words_per_column;
+    const std::uint64_t bit = bits.words[column + z / kWordBits] >> (z % kWordBits) & 1u;
+    const bool is_set = bit != 0 && ends.z[k] < RayEnds::kLeavesBox;
+    listed[count] = k;
+    count += is_set == value ? 1 : 0;
+  }
+  return count;
+}
+
 inline void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_t* index,
                       int count, float cut, CubeRays* rays) {
   rays->reserve(count);

@@ -23,7 +23,7 @@ namespace fiimap {
 namespace HWY_NAMESPACE {
 
 const TargetKernels kTargetKernels{
-    HWY_TARGET, {nullptr, readDepths, projectRow, listEnds, roundRays, walk, freeRuns, observe}};
+    HWY_TARGET, {nullptr, readDepths, projectRow, listEnds, selectEnds, roundRays, walk, freeRuns, observe}};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace fiimap

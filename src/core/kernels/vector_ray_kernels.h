@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fiimap {
 namespace HWY_NAMESPACE {
 
-/// Where the rays to some points end.
+/// Where the rays to some points end; those that leave the box are flagged in z.
 struct EndVoxels {
   IntVector x, y, z;
   hn::Mask<Floats> leaving;
@@ -35,41 +35,60 @@ HWY_INLINE FloatVector exitOfSlab(FloatVector origin, FloatVector direction, Flo
   return hn::IfThenElse(hn::Ne(direction, zero), t, hn::Set(f, 1.0f));
 }
 
-HWY_INLINE EndVoxels endVoxels(const EndPoints& points, int i) {
+/// EndPoints in vectors. Made once before the loop: for all that the compiler knows, what the loop
+/// writes could be the numbers that it begins with.
+struct EndBox {
+  FloatVector to_voxels, origin_x, origin_y, origin_z, size_x, size_y, size_z;
+};
+
+HWY_INLINE EndBox endBox(const EndPoints& points) {
+  const Floats f;
+  const auto sizeOf = [&](int axis)
+                          HWY_ATTR { return hn::Set(f, static_cast<float>(points.size[axis])); };
+  return {hn::Set(f, points.to_voxels), hn::Set(f, points.origin[0]), hn::Set(f, points.origin[1]),
+          hn::Set(f, points.origin[2]), sizeOf(0),                    sizeOf(1),
+          sizeOf(2)};
+}
+
+/// Where the rays end that leave the box.
+HWY_INLINE EndVoxels leavingEnds(const EndBox& box, FloatVector x, FloatVector y, FloatVector z,
+                                 EndVoxels ends) {
   const Floats f;
   const Ints d;
-  const auto to_voxels = hn::Set(f, points.to_voxels);
-  const auto origin_x = hn::Set(f, points.origin[0]);
-  const auto origin_y = hn::Set(f, points.origin[1]);
-  const auto origin_z = hn::Set(f, points.origin[2]);
-  const auto size_x = hn::Set(f, static_cast<float>(points.size[0]));
-  const auto size_y = hn::Set(f, static_cast<float>(points.size[1]));
-  const auto size_z = hn::Set(f, static_cast<float>(points.size[2]));
-  const auto is_inside = [&](FloatVector p, FloatVector size)
-                             HWY_ATTR { return hn::And(hn::Ge(p, hn::Zero(f)), hn::Lt(p, size)); };
-  const auto x = hn::Add(origin_x, hn::Mul(hn::LoadU(f, points.x + i), to_voxels));
-  const auto y = hn::Add(origin_y, hn::Mul(hn::LoadU(f, points.y + i), to_voxels));
-  const auto z = hn::Add(origin_z, hn::Mul(hn::LoadU(f, points.z + i), to_voxels));
-  const auto inside =
-      hn::And(hn::And(is_inside(x, size_x), is_inside(y, size_y)), is_inside(z, size_z));
-  EndVoxels ends{hn::ConvertTo(d, x), hn::ConvertTo(d, y), hn::ConvertTo(d, z), hn::Not(inside)};
-  if (hn::AllTrue(f, inside)) return ends;
-
-  const auto ray_x = hn::Sub(x, origin_x);
-  const auto ray_y = hn::Sub(y, origin_y);
-  const auto ray_z = hn::Sub(z, origin_z);
-  const auto exit =
-      hn::Min(hn::Min(hn::Set(f, 1.0f), exitOfSlab(origin_x, ray_x, size_x)),
-              hn::Min(exitOfSlab(origin_y, ray_y, size_y), exitOfSlab(origin_z, ray_z, size_z)));
-  const auto last = [&](FloatVector origin, FloatVector ray, std::int32_t size) HWY_ATTR {
+  const auto ray_x = hn::Sub(x, box.origin_x);
+  const auto ray_y = hn::Sub(y, box.origin_y);
+  const auto ray_z = hn::Sub(z, box.origin_z);
+  const auto exit = hn::Min(hn::Min(hn::Set(f, 1.0f), exitOfSlab(box.origin_x, ray_x, box.size_x)),
+                            hn::Min(exitOfSlab(box.origin_y, ray_y, box.size_y),
+                                    exitOfSlab(box.origin_z, ray_z, box.size_z)));
+  const auto last = [&](FloatVector origin, FloatVector ray, FloatVector size) HWY_ATTR {
     const auto cell = hn::ConvertTo(d, hn::Add(origin, hn::Mul(exit, ray)));
-    return hn::Min(hn::Max(cell, hn::Zero(d)), hn::Set(d, size - 1));
+    const auto last_cell = hn::Sub(hn::ConvertTo(d, size), hn::Set(d, 1));
+    return hn::Min(hn::Max(cell, hn::Zero(d)), last_cell);
   };
   const auto leaving = hn::RebindMask(d, ends.leaving);
-  ends.x = hn::IfThenElse(leaving, last(origin_x, ray_x, points.size[0]), ends.x);
-  ends.y = hn::IfThenElse(leaving, last(origin_y, ray_y, points.size[1]), ends.y);
-  ends.z = hn::IfThenElse(leaving, last(origin_z, ray_z, points.size[2]), ends.z);
+  ends.x = hn::IfThenElse(leaving, last(box.origin_x, ray_x, box.size_x), ends.x);
+  ends.y = hn::IfThenElse(leaving, last(box.origin_y, ray_y, box.size_y), ends.y);
+  const auto z_in_box = last(box.origin_z, ray_z, box.size_z);
+  const auto flagged = hn::Or(z_in_box, hn::Set(d, RayEnds::kLeavesBox));
+  ends.z = hn::IfThenElse(leaving, flagged, ends.z);
   return ends;
+}
+
+/// Of the points from i on.
+HWY_INLINE EndVoxels endVoxels(const EndPoints& points, const EndBox& box, int i) {
+  const Floats f;
+  const Ints d;
+  const auto is_inside = [&](FloatVector p, FloatVector size)
+                             HWY_ATTR { return hn::And(hn::Ge(p, hn::Zero(f)), hn::Lt(p, size)); };
+  const auto x = hn::Add(box.origin_x, hn::Mul(hn::LoadU(f, points.x + i), box.to_voxels));
+  const auto y = hn::Add(box.origin_y, hn::Mul(hn::LoadU(f, points.y + i), box.to_voxels));
+  const auto z = hn::Add(box.origin_z, hn::Mul(hn::LoadU(f, points.z + i), box.to_voxels));
+  const auto inside = hn::And(hn::And(is_inside(x, box.size_x), is_inside(y, box.size_y)),
+                              is_inside(z, box.size_z));
+  const EndVoxels ends{hn::ConvertTo(d, x), hn::ConvertTo(d, y), hn::ConvertTo(d, z),
+                       hn::Not(inside)};
+  return hn::AllTrue(f, inside) ? ends : leavingEnds(box, x, y, z, ends);
 }
 
 /// Smallest and largest x and y of what was listed.
@@ -116,7 +135,9 @@ HWY_INLINE void appendEnds(IntVector x, IntVector y, IntVector z, int first, hn:
 void listEnds(const EndPoints& points, RayEnds* ends) {
   const Ints d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  ends->begin(points.count);
+  const int count = points.count;
+  ends->begin(count);
+  const EndBox box = endBox(points);
   EndBounds bounds{hn::Set(d, ends->low[0]), hn::Set(d, ends->low[1]), hn::Set(d, ends->high[0]),
                    hn::Set(d, ends->high[1])};
   // Lane i of the result is lane i - 1, lane 0 the last one.
@@ -126,28 +147,71 @@ void listEnds(const EndPoints& points, RayEnds* ends) {
   auto last_x = hn::Set(d, -1);  // no end's, so that the first one is listed
   auto last_y = last_x;
   auto last_z = last_x;
-  for (int i = 0; i < points.count; i += lanes) {
-    const EndVoxels now = endVoxels(points, i);
-    const auto leaving = hn::RebindMask(d, now.leaving);
-    const auto flagged = hn::Or(now.z, hn::Set(d, RayEnds::kLeavesBox));
-    const auto z = hn::IfThenElse(leaving, flagged, now.z);
+  for (int i = 0; i < count; i += lanes) {
+    const EndVoxels now = endVoxels(points, box, i);
     const auto rotated_x = hn::TableLookupLanes(now.x, before_each);
     const auto rotated_y = hn::TableLookupLanes(now.y, before_each);
-    const auto rotated_z = hn::TableLookupLanes(z, before_each);
-    const auto changed = hn::Or(hn::Or(hn::Ne(now.x, hn::IfThenElse(lane_0, last_x, rotated_x)),
-                                       hn::Ne(now.y, hn::IfThenElse(lane_0, last_y, rotated_y))),
-                                hn::Ne(z, hn::IfThenElse(lane_0, last_z, rotated_z)));
+    const auto rotated_z = hn::TableLookupLanes(now.z, before_each);
+    const auto other_x = hn::Xor(now.x, hn::IfThenElse(lane_0, last_x, rotated_x));
+    const auto other_y = hn::Xor(now.y, hn::IfThenElse(lane_0, last_y, rotated_y));
+    const auto other_z = hn::Xor(now.z, hn::IfThenElse(lane_0, last_z, rotated_z));
     last_x = rotated_x;
     last_y = rotated_y;
     last_z = rotated_z;
-    const auto listed = hn::And(changed, hn::FirstN(d, std::min(lanes, points.count - i)));
-    if (!hn::AllFalse(d, listed)) appendEnds(now.x, now.y, z, i, listed, &bounds, ends);
+    auto listed = hn::Ne(hn::Or(hn::Or(other_x, other_y), other_z), hn::Zero(d));
+    if (i + lanes > count) listed = hn::And(listed, hn::FirstN(d, count - i));
+    if (!hn::AllFalse(d, listed)) appendEnds(now.x, now.y, now.z, i, listed, &bounds, ends);
   }
-  ends->first[ends->size] = points.count;
+  ends->first[ends->size] = count;
   ends->low[0] = hn::GetLane(hn::MinOfLanes(d, bounds.low_x));
   ends->low[1] = hn::GetLane(hn::MinOfLanes(d, bounds.low_y));
   ends->high[0] = hn::GetLane(hn::MaxOfLanes(d, bounds.high_x));
   ends->high[1] = hn::GetLane(hn::MaxOfLanes(d, bounds.high_y));
+}
+
+/// The words with these indices.
+HWY_INLINE WordVector gatherWords(const std::uint64_t* words, hn::Vec<hn::Half<Ints>> index) {
+  const Words d;
+  const hn::RebindToSigned<Words> d64;
+  return hn::GatherIndex(d, words, hn::PromoteTo(d64, index));
+}
+
+int selectEnds(const RayEnds& ends, int first, int last, const VoxelBits& bits, bool value,
+               std::int32_t* listed) {
+  // Where the machine does not gather by itself, plain C++ is as fast.
+  if constexpr (!kGathers) return plainKernels().selectEnds(ends, first, last, bits, value, listed);
+  const Ints d;
+  const Words d64;
+  const hn::Half<Ints> half;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const auto one = hn::Set(d64, 1);
+  const auto size_y = hn::Set(d, bits.size_y);
+  const auto words_per_column = hn::Set(d, bits.words_per_column);
+  const auto unwanted = hn::Set(d, value ? 0 : 1);
+  const auto bitsAt = [&](hn::Vec<decltype(half)> word, hn::Vec<decltype(half)> bit) HWY_ATTR {
+    const hn::RebindToSigned<Words> signed64;
+    const auto shift = hn::BitCast(d64, hn::PromoteTo(signed64, bit));
+    const auto found = hn::And(gatherWords(bits.words, word) >> shift, one);
+    return hn::BitCast(half, hn::TruncateTo(hn::RebindToUnsigned<hn::Half<Ints>>(), found));
+  };
+  int count = 0;
+  for (int k = first; k < last; k += lanes) {
+    // What lies beyond the last one may be no voxel.
+    const auto in_list = hn::FirstN(d, std::min(lanes, last - k));
+    const auto x = hn::IfThenElseZero(in_list, hn::LoadU(d, ends.x.data() + k));
+    const auto y = hn::IfThenElseZero(in_list, hn::LoadU(d, ends.y.data() + k));
+    const auto flagged = hn::IfThenElseZero(in_list, hn::LoadU(d, ends.z.data() + k));
+    const auto z = hn::And(flagged, hn::Set(d, RayEnds::kLeavesBox - 1));
+    const auto column = hn::Mul(hn::Add(hn::Mul(x, size_y), y), words_per_column);
+    const auto word = hn::Add(column, hn::ShiftRight<kWordShift>(z));
+    const auto bit = hn::And(z, hn::Set(d, kWordBits - 1));
+    const auto found = hn::Combine(d, bitsAt(hn::UpperHalf(half, word), hn::UpperHalf(half, bit)),
+                                   bitsAt(hn::LowerHalf(half, word), hn::LowerHalf(half, bit)));
+    const auto in_box = hn::Lt(flagged, hn::Set(d, RayEnds::kLeavesBox));
+    const auto selected = hn::Ne(hn::IfThenElseZero(in_box, found), unwanted);
+    count += pack(d, hn::Iota(d, k), hn::And(in_list, selected), listed + count);
+  }
+  return count;
 }
 
 void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_t* index, int count,

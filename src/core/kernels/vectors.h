@@ -30,6 +30,9 @@ using WordVector = hn::Vec<Words>;
 /// which compilers copy at every call.
 constexpr bool kPacksLanes = HWY_TARGET <= HWY_AVX3;
 
+/// Whether the machine gathers lanes from memory by itself.
+constexpr bool kGathers = HWY_TARGET <= HWY_AVX2;
+
 /// Bit i: lane i is in the mask.
 template <typename D, typename M>
 HWY_INLINE std::uint64_t maskBits(D d, M mask) {
