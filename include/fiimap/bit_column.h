@@ -10,6 +10,15 @@ namespace fiimap {
 constexpr int kWordShift = 6;
 constexpr int kWordBits = 1 << kWordShift;
 
+/// Number of set bits. In sums of ever more bits, because without an instruction for it compilers
+/// call a function that looks up each byte.
+inline int countBits(std::uint64_t word) {
+  word -= (word >> 1) & 0x5555555555555555u;                                  // of each 2 bits
+  word = (word & 0x3333333333333333u) + ((word >> 2) & 0x3333333333333333u);  // of each 4 bits
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fu;                          // of each byte
+  return static_cast<int>((word * 0x0101010101010101u) >> (kWordBits - 8));   // the sum is on top
+}
+
 /// Calls visit(bit) for every set bit of a column, lowest first.
 template <typename Visitor>
 void forEachBit(const std::uint64_t* words, int count, Visitor&& visit) {

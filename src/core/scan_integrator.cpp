@@ -15,12 +15,16 @@ void rotateIntoRing(const std::uint64_t* columns, int count, int column_words, i
     }
     return;
   }
-  std::fill_n(ring, count * ring_words, 0);
+  const auto wordAt = [&](int w) {
+    w &= ring_words - 1;
+    return w < column_words ? columns[w] : 0;
+  };
   for (int c = 0; c < count; ++c, columns += column_words, ring += ring_words) {
-    for (int w = 0; w < column_words; ++w) {
-      const int target = first_bit / kWordBits + w;
-      ring[target & (ring_words - 1)] |= columns[w] << shift;
-      if (shift != 0) ring[(target + 1) & (ring_words - 1)] |= columns[w] >> (kWordBits - shift);
+    for (int w = 0; w < ring_words; ++w) {
+      const int source = w - first_bit / kWordBits;
+      // In two steps, because a word cannot be shifted by all its bits.
+      const std::uint64_t below = wordAt(source - 1) >> 1 >> (kWordBits - 1 - shift);
+      ring[w] = (wordAt(source) << shift) | below;
     }
   }
 }

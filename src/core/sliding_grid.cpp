@@ -102,10 +102,9 @@ void SlidingGrid::forgetRow(Plane plane, int x, const std::uint64_t* kept, Slot*
 
   std::uint64_t* const target = writableTile(slot) + offset;
   for (int w = 0; w < words; ++w) {
-    // Counting bits is slow without an instruction for it, and few words lose any.
     const std::uint64_t leaving = target[w] & ~kept[w];
     if (leaving == 0) continue;
-    slot->counts[static_cast<int>(plane)] -= __builtin_popcountll(leaving);
+    slot->counts[static_cast<int>(plane)] -= countBits(leaving);
     if (plane == Plane::kOccupied) listObstacles(leaving, w, x, y, forgotten);
     target[w] ^= leaving;
   }
@@ -166,9 +165,8 @@ void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std
   std::uint64_t* const target = writableTile(&slot) + offsetInTile(plane, x, y, layout_);
   std::int32_t& voxels = slot.counts[static_cast<int>(plane)];
   for (int w = 0; w < count; ++w) {
-    // Counting bits is slow without an instruction for it, and few words differ.
-    if (words[w] == target[w]) continue;
-    voxels += __builtin_popcountll(words[w]) - __builtin_popcountll(target[w]);
+    if (words[w] == target[w]) continue;  // mostly
+    voxels += countBits(words[w]) - countBits(target[w]);
     target[w] = words[w];
   }
 }
