@@ -2,7 +2,9 @@
 
 // Dilation of bit columns, in plain C++ that compilers turn into vectors.
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "fiimap/bit_column.h"
 #include "fiimap/kernels.h"
@@ -26,40 +28,57 @@ inline void widen(const std::uint64_t* row, StripSpan span, int reach, Strip* wi
 }
 
 /// One voxel up and down.
-inline void dilateAlongZ(const ColumnDilation& dilation, int first, int end, Strip* columns) {
+inline void dilateAlongZ(const ColumnDilation& dilation, int first, int end, Strip* dilated) {
   constexpr int kCarry = kWordBits - 1;
   const int last = dilation.words - 1;
+  Strip up_below, lowest;
   for (int c = first; c < end; ++c) {
-    const std::uint64_t first_word = columns[0].words[c];
-    std::uint64_t below = columns[last].words[c] & dilation.not_top[last];
-    for (int w = 0; w <= last; ++w) {
-      const std::uint64_t word = columns[w].words[c];
-      const std::uint64_t up = word & dilation.not_top[w];
-      const std::uint64_t down = word & dilation.not_bottom[w];
-      const std::uint64_t above = w == last ? first_word & dilation.not_bottom[0]
-                                            : columns[w + 1].words[c] & dilation.not_bottom[w + 1];
-      columns[w].words[c] =
-          word | (up << 1) | (below >> kCarry) | (down >> 1) | (above << kCarry);
-      below = up;
+    up_below.words[c] = dilated[last].words[c] & dilation.not_top[last];
+    lowest.words[c] = dilated[0].words[c];
+  }
+  for (int w = 0; w <= last; ++w) {
+    const std::uint64_t not_top = dilation.not_top[w];
+    const std::uint64_t not_bottom = dilation.not_bottom[w];
+    const std::uint64_t not_bottom_above = dilation.not_bottom[w < last ? w + 1 : 0];
+    const Strip& above = w < last ? dilated[w + 1] : lowest;
+    for (int c = first; c < end; ++c) {
+      const std::uint64_t word = dilated[w].words[c];
+      const std::uint64_t up = word & not_top;
+      const std::uint64_t down_above = above.words[c] & not_bottom_above;
+      dilated[w].words[c] = word | (up << 1) | (up_below.words[c] >> kCarry) |
+                            ((word & not_bottom) >> 1) | (down_above << kCarry);
+      up_below.words[c] = up;
     }
   }
+}
+
+/// Adds the strips that are `sources` away to a group of columns. It stays in registers: with 10
+/// voxels of inflation three quarters of the time of a loop over the whole span.
+inline void addSources(const Strip* source, const std::int32_t* sources, int count, int column,
+                       std::uint64_t* sum) {
+  std::uint64_t all[kGroup];
+  std::memcpy(all, sum, sizeof(all));
+  for (int s = 0; s < count; ++s) {
+    const std::uint64_t* const words = source[sources[s]].words + column;
+    for (int i = 0; i < kGroup; ++i) all[i] |= words[i];
+  }
+  std::memcpy(sum, all, sizeof(all));
 }
 
 inline void dilate(const ColumnDilation& dilation, const Strip* source, StripSpan span,
                    Strip* dilated) {
   const auto [first, end] = wholeGroups(span);
-  for (int w = 0; w < dilation.words; ++w) {
-    for (int c = first; c < end; ++c) dilated[w].words[c] = 0;
-  }
+  for (int w = 0; w < dilation.words; ++w) std::fill(dilated[w].words + first, dilated[w].words + end, 0);
   int s = 0;
   for (const int sources_end : dilation.sources_end) {
     if (s > 0) dilateAlongZ(dilation, first, end, dilated);
-    for (; s < sources_end; ++s) {
-      for (int w = 0; w < dilation.words; ++w) {
-        const std::uint64_t* const added = source[w * dilation.word_step + dilation.sources[s]].words;
-        for (int c = first; c < end; ++c) dilated[w].words[c] |= added[c];
+    for (int w = 0; w < dilation.words; ++w) {
+      for (int c = first; c < end; c += kGroup) {
+        addSources(source + w * dilation.word_step, dilation.sources.data() + s, sources_end - s, c,
+                   dilated[w].words + c);
       }
     }
+    s = sources_end;
   }
 }
 
