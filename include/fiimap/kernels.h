@@ -145,7 +145,7 @@ struct ColumnDilation {
   /// Ring masks: all voxels but the window's top or bottom, whose bits leave it.
   std::vector<std::uint64_t> not_top, not_bottom;
   std::vector<std::int32_t> sources;  ///< strips to add, counted from that of the row itself
-  std::vector<int> sources_end;  ///< of each half height, the largest first
+  std::vector<int> sources_end;       ///< of each half height, the largest first
 };
 
 /// The inner loops of the map, once for each instruction set that the machine may have. All give

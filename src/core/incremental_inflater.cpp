@@ -27,8 +27,8 @@ int halfWidth(const StructuringElement& element, int dx, int h) {
   return width;
 }
 
-/// What Horner's scheme has to add. Everything that a half height adds is added by all smaller ones,
-/// too, so a row of columns counts only where it is wider than before.
+/// What Horner's scheme has to add. Everything that a half height adds is added by all smaller
+/// ones, too, so a row of columns counts only where it is wider than before.
 ColumnDilation dilationBy(const StructuringElement& element) {
   const int reach = element.reach();
   ColumnDilation dilation;

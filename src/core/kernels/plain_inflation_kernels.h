@@ -68,7 +68,8 @@ inline void addSources(const Strip* source, const std::int32_t* sources, int cou
 inline void dilate(const ColumnDilation& dilation, const Strip* source, StripSpan span,
                    Strip* dilated) {
   const auto [first, end] = wholeGroups(span);
-  for (int w = 0; w < dilation.words; ++w) std::fill(dilated[w].words + first, dilated[w].words + end, 0);
+  for (int w = 0; w < dilation.words; ++w)
+    std::fill(dilated[w].words + first, dilated[w].words + end, 0);
   int s = 0;
   for (const int sources_end : dilation.sources_end) {
     if (s > 0) dilateAlongZ(dilation, first, end, dilated);

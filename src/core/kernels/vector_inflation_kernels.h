@@ -136,7 +136,8 @@ HWY_INLINE void dilateTall(const ColumnDilation& dilation, const Strip* source, 
     if (s > 0) dilateAlongZ(dilation, column, dilated);
     for (int w = 0; w < dilation.words; ++w) {
       WordBlock word = s > 0 ? loadBlock(dilated[w].words + column) : zeroBlock();
-      addSources(source + w * dilation.word_step, dilation.sources.data() + s, sources_end - s, column, &word);
+      addSources(source + w * dilation.word_step, dilation.sources.data() + s, sources_end - s,
+                 column, &word);
       storeBlock(word, dilated[w].words + column);
     }
     s = sources_end;
