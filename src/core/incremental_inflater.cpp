@@ -20,6 +20,17 @@ StripSpan spanOf(std::uint32_t columns) {
   return {__builtin_ctz(columns), kTileSide - __builtin_clz(columns)};
 }
 
+/// Copies every `step`-th word. Compilers vectorize steps that they know.
+void copyEvery(int step, const std::uint64_t* words, int count, std::uint64_t* to) {
+  if (step == 1) {
+    std::copy_n(words, count, to);
+  } else if (step == 2) {
+    for (int i = 0; i < count; ++i) to[i] = words[2 * i];
+  } else {
+    for (int i = 0; i < count; ++i) to[i] = words[step * i];
+  }
+}
+
 /// Largest |dy| at which the element's half height is h or more; -1 where it is lower at all dy.
 int halfWidth(const StructuringElement& element, int dx, int h) {
   int width = -1;
@@ -84,12 +95,14 @@ void IncrementalInflater::markAround(const std::vector<VoxelIndex>& changed,
                                      const SlidingGrid& grid) {
   const VoxelBox& window = grid.window();
   for (auto v = changed.begin(); v != changed.end();) {
-    // Neighbours along y are mostly listed one after the other, and voxels of one column always.
+    // Columns near each other along y are mostly listed one after the other. Those between them
+    // are dirty, too, or lie between dirty ones and are computed anyway.
     const int x = v->x(), first_y = v->y();
     int last_y = first_y;
-    for (; v != changed.end() && v->x() == x && v->y() - last_y <= 1 && v->y() >= last_y; ++v) {
-      last_y = v->y();
-    }
+    const auto is_near = [&](const VoxelIndex& next) {
+      return next.x() == x && next.y() >= last_y && next.y() - last_y <= 2 * reach_ + 1;
+    };
+    for (; v != changed.end() && is_near(*v); ++v) last_y = v->y();
     const int first_x = std::max(x - reach_, window.min.x());
     const int last_x = std::min(x + reach_, window.max.x() - 1);
     for (int near_x = first_x; near_x <= last_x; ++near_x) {
@@ -145,9 +158,13 @@ void IncrementalInflater::widenRow(int x, int tile_y, StripSpan span, const Slid
                                    Strip* widened) {
   readRow(x, tile_y, span, grid);
   for (int w = 0; w < dilation_.words; ++w) {
-    const std::uint64_t* const in_tile = row_.data() + w * rowColumns() + reach_;
-    kernels_.widen(in_tile, span, reach_, widened + w * dilation_.word_step);
+    kernels_.widen(rowInTile(w), span, reach_, widened + w * dilation_.word_step);
   }
+}
+
+/// Word w of a row's columns, from the first one of the tile; reach_ columns lie before it.
+std::uint64_t* IncrementalInflater::rowInTile(int w) {
+  return row_.data() + w * rowColumns() + reach_;
 }
 
 /// Copies what is around a part of a tile's row, so that nothing that follows has to handle tile
@@ -155,27 +172,19 @@ void IncrementalInflater::widenRow(int x, int tile_y, StripSpan span, const Slid
 void IncrementalInflater::readRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid) {
   const VoxelBox& window = grid.window();
   const int words = dilation_.words;
-  const int first_y = tile_y + span.first - reach_, end_y = tile_y + span.end + reach_;
+  const int first = span.first - reach_, end = span.end + reach_;
   const bool is_inside = x >= window.min.x() && x < window.max.x();
-  const int first_inside = is_inside ? std::max(first_y, window.min.y()) : end_y;
-  const int end_inside = is_inside ? std::min(end_y, window.max.y()) : end_y;
+  const int first_inside = is_inside ? std::max(first, window.min.y() - tile_y) : end;
+  const int end_inside = is_inside ? std::min(end, window.max.y() - tile_y) : end;
   for (int w = 0; w < words; ++w) {
-    std::uint64_t* const row = row_.data() + w * rowColumns() + reach_ - tile_y;
-    std::fill(row + first_y, row + first_inside, 0);
-    std::fill(row + end_inside, row + end_y, 0);
+    std::fill(rowInTile(w) + first, rowInTile(w) + first_inside, 0);
+    std::fill(rowInTile(w) + end_inside, rowInTile(w) + end, 0);
   }
-  for (int y = first_inside; y < end_inside;) {
-    const int end = std::min(end_inside, (y & ~(kTileSide - 1)) + kTileSide);
-    const std::uint64_t* column = grid.column(Plane::kOccupied, x, y);
-    std::uint64_t* row = row_.data() + reach_ - tile_y + y;
-    if (words == 1) {
-      std::copy_n(column, end - y, row);
-    } else {
-      for (int c = 0; c < end - y; ++c, ++row) {
-        for (int w = 0; w < words; ++w) row[w * rowColumns()] = *column++;
-      }
-    }
-    y = end;
+  for (int c = first_inside; c < end_inside;) {
+    const int next = std::min(end_inside, (c & ~(kTileSide - 1)) + kTileSide);
+    const std::uint64_t* const columns = grid.column(Plane::kOccupied, x, tile_y + c);
+    for (int w = 0; w < words; ++w) copyEvery(words, columns + w, next - c, rowInTile(w) + c);
+    c = next;
   }
 }
 

@@ -40,9 +40,10 @@ class IncrementalInflater : public Inflater {
   void recompute(const DirtyTile& tile, SlidingGrid* grid);
   void widenRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid, Strip* widened);
   void readRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid);
-  Strip* widenedRow(int row);
-  int rowColumns() const { return kTileSide + 2 * reach_; }
   void writeRow(int x, int tile_y, StripSpan span, SlidingGrid* grid);
+  Strip* widenedRow(int row);
+  std::uint64_t* rowInTile(int w);
+  int rowColumns() const { return kTileSide + 2 * reach_; }
 
   const Kernels& kernels_;
   int reach_;
@@ -51,10 +52,10 @@ class IncrementalInflater : public Inflater {
 
   std::vector<int> dirty_slots_;  // index into dirty_tiles_ by slot of the grid, or -1
   std::vector<DirtyTile> dirty_tiles_;
-  std::vector<std::uint64_t> row_;      // occupied columns of one x, in and beside a tile
+  std::vector<std::uint64_t> row_;      // by word, occupied columns of one x in and beside a tile
   std::vector<Strip> widened_;          // by word, x and half width
   std::vector<Strip> inflated_;         // by word, of one x
-  std::vector<std::uint64_t> columns_;  // of one x
+  std::vector<std::uint64_t> columns_;  // inflated, of one x
 };
 
 }  // namespace fiimap
