@@ -124,8 +124,8 @@ struct CubeRays {
   void reserve(int count);
 };
 
-/// A word of each column of a tile at one x, side by side along y. Aligned, because vectors that
-/// cross a border of a cache line take twice the time.
+/// A word of each column of a tile at one x, side by side along y. Aligned, so that no vector
+/// crosses a border of cache lines.
 struct alignas(64) Strip {
   static constexpr int kColumns = 32;
   std::uint64_t words[kColumns];

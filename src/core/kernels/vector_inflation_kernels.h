@@ -95,7 +95,8 @@ HWY_INLINE void addShifted(const WordBlock& up, const WordBlock& up_below, const
   }
 }
 
-/// Columns of one word, which stays in registers: a third of the time of dilateTall().
+/// Columns of one word, which stays in registers: with dilateTall() all of inflation takes 14 %
+/// more.
 HWY_INLINE void dilateLow(const ColumnDilation& dilation, const Strip* source, int column,
                           Strip* dilated) {
   WordBlock word = zeroBlock();
