@@ -124,6 +124,30 @@ struct CubeRays {
   void reserve(int count);
 };
 
+/// A word of each column of a tile at one x, side by side along y. Aligned, so that no vector
+/// crosses a border of cache lines.
+struct alignas(64) Strip {
+  static constexpr int kColumns = 32;
+  std::uint64_t words[kColumns];
+};
+
+/// Columns first..end-1 of a strip. Kernels may write the others, too.
+struct StripSpan {
+  int first, end;
+};
+
+/// Dilation of columns by a structuring element, as Horner's scheme along z: to nothing, add the
+/// sources of the largest half height, dilate by one voxel up and down, add those of the next
+/// smaller half height, and so on down to 0.
+struct ColumnDilation {
+  int words;      ///< of a column
+  int word_step;  ///< from a word of the sources to the next one, strips
+  /// Ring masks: all voxels but the window's top or bottom, whose bits leave it.
+  std::vector<std::uint64_t> not_top, not_bottom;
+  std::vector<std::int32_t> sources;  ///< strips to add, counted from that of the row itself
+  std::vector<int> sources_end;       ///< of each half height, the largest first
+};
+
 /// The inner loops of the map, once for each instruction set that the machine may have. All give
 /// the same bits: they compute the same single-precision expressions, without contraction.
 struct Kernels {
@@ -164,6 +188,18 @@ struct Kernels {
   /// holds. log_odds has 64 bytes per word; occupied[w] is updated.
   void (*observe)(const LogOdds& l, int words, const std::uint64_t* hit, const std::uint64_t* free,
                   const std::uint64_t* known, std::uint64_t* occupied, std::int8_t* log_odds);
+
+  /// Unions of neighbours: column c of widened[k] gets row[c - k] | ... | row[c + k], for
+  /// k = 0..reach.
+  void (*widen)(const std::uint64_t* row, StripSpan span, int reach, Strip* widened);
+
+  /// Dilates the columns of a row. \param source the row's strip; dilated has one strip per word.
+  void (*dilate)(const ColumnDilation& dilation, const Strip* source, StripSpan span,
+                 Strip* dilated);
+
+  /// Replaces words.
+  /// \return how many bits more are set than before.
+  int (*replace)(const std::uint64_t* words, int count, std::uint64_t* target);
 };
 
 /// In plain C++, which the compiler turns into the instructions that every machine has.

@@ -7,6 +7,7 @@
 
 #include "fiimap/bit_column.h"
 #include "fiimap/change_set.h"
+#include "fiimap/kernels.h"
 #include "fiimap/voxel_lattice.h"
 
 namespace fiimap {
@@ -185,6 +186,7 @@ class SlidingGrid {
   VoxelBox window_;
   ColumnLayout layout_;
   TileRing ring_;
+  const Kernels& kernels_;
   std::vector<Slot> slots_;
   std::vector<int> live_;
   std::vector<std::unique_ptr<std::int8_t[]>> spare_log_odds_;

@@ -8,48 +8,68 @@ namespace fiimap {
 namespace {
 
 constexpr int kNotDirty = -1;
+static_assert(Strip::kColumns == kTileSide, "a strip is a row of a tile");
 
 /// Bits first..last (inclusive) of a tile row.
 std::uint32_t rowBits(int first, int last) {
   return (~std::uint32_t{0} << first) & (~std::uint32_t{0} >> (kTileSide - 1 - last));
 }
 
+/// From the first set bit to the last one.
+StripSpan spanOf(std::uint32_t columns) {
+  return {__builtin_ctz(columns), kTileSide - __builtin_clz(columns)};
+}
+
+/// Copies every `step`-th word. Compilers vectorize steps that they know.
+void copyEvery(int step, const std::uint64_t* words, int count, std::uint64_t* to) {
+  if (step == 1) {
+    std::copy_n(words, count, to);
+  } else if (step == 2) {
+    for (int i = 0; i < count; ++i) to[i] = words[2 * i];
+  } else {
+    for (int i = 0; i < count; ++i) to[i] = words[step * i];
+  }
+}
+
+/// Largest |dy| at which the element's half height is h or more; -1 where it is lower at all dy.
+int halfWidth(const StructuringElement& element, int dx, int h) {
+  int width = -1;
+  while (element.halfHeight(dx, width + 1) >= h) ++width;
+  return width;
+}
+
+/// What Horner's scheme has to add. Everything that a half height adds is added by all smaller
+/// ones, too, so a row of columns counts only where it is wider than before.
+ColumnDilation dilationBy(const StructuringElement& element) {
+  const int reach = element.reach();
+  ColumnDilation dilation;
+  dilation.word_step = (kTileSide + 2 * reach) * (reach + 1);
+  for (int h = reach; h >= 0; --h) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const int width = halfWidth(element, dx, h);
+      const bool is_wider = width > halfWidth(element, dx, h + 1);
+      if (is_wider) dilation.sources.push_back(dx * (reach + 1) + width);
+    }
+    dilation.sources_end.push_back(static_cast<int>(dilation.sources.size()));
+  }
+  return dilation;
+}
+
 }  // namespace
 
 IncrementalInflater::IncrementalInflater(const StructuringElement& element)
-    : reach_(element.reach()), runs_by_half_height_(element.reach() + 1) {
-  for (int dx = -reach_; dx <= reach_; ++dx) {
-    int widest = 0;
-    for (int dy = -reach_; dy <= reach_; ++dy) {
-      const int half_height = element.halfHeight(dx, dy);
-      if (half_height < 0) continue;
-      widest = std::max(widest, dy);
-      std::vector<Run>& runs = runs_by_half_height_[half_height];
-      const bool continues = !runs.empty() && runs.back().dx == dx && runs.back().dy_last == dy - 1;
-      if (continues) {
-        runs.back().dy_last = dy;
-      } else {
-        runs.push_back({dx, dy, dy});
-      }
-    }
-    footprint_.push_back(widest);
-  }
+    : kernels_(kernels()), reach_(element.reach()), dilation_(dilationBy(element)) {
+  for (int dx = -reach_; dx <= reach_; ++dx) footprint_.push_back(halfWidth(element, dx, 0));
 }
 
 void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
   if (changes.empty()) return;
-  words_ = grid->layout().words();
   dirty_slots_.resize(grid->ring().slots(), kNotDirty);
   const std::vector<VoxelIndex> uncovered = obstaclesBeside(changes.entered, reach_, *grid);
   for (const auto* list : {&changes.lower, &changes.raise, &changes.forgotten, &uncovered}) {
     markAround(*list, *grid);
   }
-
-  const VoxelBox& window = grid->window();
-  not_top_.resize(words_);
-  not_bottom_.resize(words_);
-  grid->heightMask(window.min.z(), window.max.z() - 1, not_top_.data());
-  grid->heightMask(window.min.z() + 1, window.max.z(), not_bottom_.data());
+  prepareFor(*grid);
   for (const DirtyTile& tile : dirty_tiles_) {
     recompute(tile, grid);
     dirty_slots_[grid->ring().slotOf(tile.origin.x(), tile.origin.y())] = kNotDirty;
@@ -57,20 +77,38 @@ void IncrementalInflater::update(const ChangeSet& changes, SlidingGrid* grid) {
   dirty_tiles_.clear();
 }
 
+void IncrementalInflater::prepareFor(const SlidingGrid& grid) {
+  const int words = grid.layout().words();
+  const VoxelBox& window = grid.window();
+  dilation_.words = words;
+  dilation_.not_top.resize(words);
+  dilation_.not_bottom.resize(words);
+  grid.heightMask(window.min.z(), window.max.z() - 1, dilation_.not_top.data());
+  grid.heightMask(window.min.z() + 1, window.max.z(), dilation_.not_bottom.data());
+  row_.resize(static_cast<std::size_t>(words) * rowColumns());
+  widened_.resize(static_cast<std::size_t>(words) * dilation_.word_step);
+  inflated_.resize(words);
+  columns_.resize(static_cast<std::size_t>(words) * kTileSide);
+}
+
 void IncrementalInflater::markAround(const std::vector<VoxelIndex>& changed,
                                      const SlidingGrid& grid) {
   const VoxelBox& window = grid.window();
-  const VoxelIndex* last = nullptr;
-  for (const VoxelIndex& v : changed) {
-    // Voxels of one column are listed one after the other.
-    if (last != nullptr && last->x() == v.x() && last->y() == v.y()) continue;
-    last = &v;
-    const int first_x = std::max(v.x() - reach_, window.min.x());
-    const int last_x = std::min(v.x() + reach_, window.max.x() - 1);
-    for (int x = first_x; x <= last_x; ++x) {
-      const int half_width = footprint_[x - v.x() + reach_];
-      markColumns(x, std::max(v.y() - half_width, window.min.y()),
-                  std::min(v.y() + half_width, window.max.y() - 1), grid);
+  for (auto v = changed.begin(); v != changed.end();) {
+    // Columns near each other along y are mostly listed one after the other. Those between them
+    // are dirty, too, or lie between dirty ones and are computed anyway.
+    const int x = v->x(), first_y = v->y();
+    int last_y = first_y;
+    const auto is_near = [&](const VoxelIndex& next) {
+      return next.x() == x && next.y() >= last_y && next.y() - last_y <= 2 * reach_ + 1;
+    };
+    for (; v != changed.end() && is_near(*v); ++v) last_y = v->y();
+    const int first_x = std::max(x - reach_, window.min.x());
+    const int last_x = std::min(x + reach_, window.max.x() - 1);
+    for (int near_x = first_x; near_x <= last_x; ++near_x) {
+      const int half_width = footprint_[near_x - x + reach_];
+      markColumns(near_x, std::max(first_y - half_width, window.min.y()),
+                  std::min(last_y + half_width, window.max.y() - 1), grid);
     }
   }
 }
@@ -98,93 +136,70 @@ void IncrementalInflater::recompute(const DirtyTile& tile, SlidingGrid* grid) {
     first_row = std::min(first_row, row);
     last_row = row;
   }
-  const int y_first = tile.origin.y() + __builtin_ctz(any_row);
-  const int y_last = tile.origin.y() + kTileSide - 1 - __builtin_clz(any_row);
-  gather({{tile.origin.x() + first_row - reach_, y_first - reach_, 0},
-          {tile.origin.x() + last_row + reach_ + 1, y_last + reach_ + 1, 1}},
-         *grid);
-
+  const VoxelIndex& origin = tile.origin;
+  for (int row = first_row - reach_; row <= last_row + reach_; ++row) {
+    widenRow(origin.x() + row, origin.y(), spanOf(any_row), *grid, widenedRow(row));
+  }
   for (int row = first_row; row <= last_row; ++row) {
-    const std::uint64_t bits = tile.rows[row];
-    forEachRun(&bits, 1, [&](int first, int last) {
-      recomputeRow(tile.origin.x() + row, tile.origin.y() + first, tile.origin.y() + last, grid);
-    });
+    if (tile.rows[row] == 0) continue;
+    // Columns between dirty ones come out as they were.
+    const StripSpan span = spanOf(tile.rows[row]);
+    kernels_.dilate(dilation_, widenedRow(row), span, inflated_.data());
+    writeRow(origin.x() + row, origin.y(), span, grid);
   }
 }
 
-/// Copies occupied columns side by side, so that the inner loop runs over plain arrays and no tile
-/// border or window face has to be handled in it: columns outside the window are zero.
-void IncrementalInflater::gather(const VoxelBox& columns, const SlidingGrid& grid) {
-  gathered_ = columns;
-  const int side_y = columns.size().y();
-  occupied_.resize(static_cast<std::size_t>(columns.size().x()) * side_y * words_);
-  const VoxelBox inside = columns.intersection(grid.window());
-  for (int x = columns.min.x(); x < columns.max.x(); ++x) {
-    std::uint64_t* const row = occupied_.data() + gatheredOffset(x, columns.min.y());
-    const bool is_inside = x >= inside.min.x() && x < inside.max.x();
-    const int first_y = is_inside ? inside.min.y() : columns.max.y();
-    const int end_y = is_inside ? inside.max.y() : columns.max.y();
-    std::fill(row, occupied_.data() + gatheredOffset(x, first_y), 0);
-    for (int y = first_y; y < end_y;) {
-      const int end_of_tile = (y & ~(kTileSide - 1)) + kTileSide;
-      const int count = std::min(end_y, end_of_tile) - y;
-      std::copy_n(grid.column(Plane::kOccupied, x, y), count * words_,
-                  occupied_.data() + gatheredOffset(x, y));
-      y += count;
-    }
-    std::fill(occupied_.data() + gatheredOffset(x, end_y), row + side_y * words_, 0);
+/// Strips of a row of the tile, or of one up to reach_ beside it.
+Strip* IncrementalInflater::widenedRow(int row) {
+  return widened_.data() + static_cast<std::ptrdiff_t>(row + reach_) * (reach_ + 1);
+}
+
+void IncrementalInflater::widenRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid,
+                                   Strip* widened) {
+  readRow(x, tile_y, span, grid);
+  for (int w = 0; w < dilation_.words; ++w) {
+    kernels_.widen(rowInTile(w), span, reach_, widened + w * dilation_.word_step);
   }
 }
 
-/// Where a column begins in occupied_.
-std::size_t IncrementalInflater::gatheredOffset(int x, int y) const {
-  const std::size_t row = x - gathered_.min.x();
-  return (row * gathered_.size().y() + y - gathered_.min.y()) * words_;
+/// Word w of a row's columns, from the first one of the tile; reach_ columns lie before it.
+std::uint64_t* IncrementalInflater::rowInTile(int w) {
+  return row_.data() + w * rowColumns() + reach_;
 }
 
-void IncrementalInflater::recomputeRow(int x, int y_first, int y_last, SlidingGrid* grid) {
-  const int count = (y_last - y_first + 1) * words_;
-  inflated_.assign(count, 0);
-  for (int half_height = reach_; half_height >= 0; --half_height) {
-    for (const Run& run : runs_by_half_height_[half_height]) {
-      for (int dy = run.dy_first; dy <= run.dy_last; ++dy) {
-        const std::uint64_t* source = occupied_.data() + gatheredOffset(x + run.dx, y_first + dy);
-        for (int i = 0; i < count; ++i) inflated_[i] |= source[i];
+/// Copies what is around a part of a tile's row, so that nothing that follows has to handle tile
+/// borders or window faces: columns outside the window are zero.
+void IncrementalInflater::readRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid) {
+  const VoxelBox& window = grid.window();
+  const int words = dilation_.words;
+  const int first = span.first - reach_, end = span.end + reach_;
+  const bool is_inside = x >= window.min.x() && x < window.max.x();
+  const int first_inside = is_inside ? std::max(first, window.min.y() - tile_y) : end;
+  const int end_inside = is_inside ? std::min(end, window.max.y() - tile_y) : end;
+  for (int w = 0; w < words; ++w) {
+    std::fill(rowInTile(w) + first, rowInTile(w) + first_inside, 0);
+    std::fill(rowInTile(w) + end_inside, rowInTile(w) + end, 0);
+  }
+  for (int c = first_inside; c < end_inside;) {
+    const int next = std::min(end_inside, (c & ~(kTileSide - 1)) + kTileSide);
+    const std::uint64_t* const columns = grid.column(Plane::kOccupied, x, tile_y + c);
+    for (int w = 0; w < words; ++w) copyEvery(words, columns + w, next - c, rowInTile(w) + c);
+    c = next;
+  }
+}
+
+void IncrementalInflater::writeRow(int x, int tile_y, StripSpan span, SlidingGrid* grid) {
+  const int words = dilation_.words;
+  const std::uint64_t* columns = inflated_[0].words + span.first;
+  if (words > 1) {
+    for (int w = 0; w < words; ++w) {
+      for (int c = span.first; c < span.end; ++c) {
+        columns_[(c - span.first) * words + w] = inflated_[w].words[c];
       }
     }
-    if (half_height == 0) break;
-    dilateAlongZ(y_last - y_first + 1, inflated_.data());
+    columns = columns_.data();
   }
-  grid->writeColumns(Plane::kInflated, x, y_first, y_last - y_first + 1, inflated_.data());
-}
-
-/// Dilates columns by one voxel up and down. Bits that would leave the window are taken away
-/// before the shift, because in the ring they would come back at its other end.
-void IncrementalInflater::dilateAlongZ(int columns, std::uint64_t* words) const {
-  constexpr int kCarry = kWordBits - 1;
-  if (words_ == 1) {
-    const std::uint64_t not_top = not_top_[0], not_bottom = not_bottom_[0];
-    for (int c = 0; c < columns; ++c) {
-      const std::uint64_t up = words[c] & not_top;
-      const std::uint64_t down = words[c] & not_bottom;
-      words[c] |= (up << 1) | (up >> kCarry) | (down >> 1) | (down << kCarry);
-    }
-    return;
-  }
-  for (std::uint64_t* column = words; column < words + columns * words_; column += words_) {
-    const int last = words_ - 1;
-    const std::uint64_t first_word = column[0];
-    std::uint64_t below = column[last];
-    for (int w = 0; w < words_; ++w) {
-      const std::uint64_t word = column[w];
-      const int below_index = w == 0 ? last : w - 1;
-      const int above_index = w == last ? 0 : w + 1;
-      const std::uint64_t above = w == last ? first_word : column[w + 1];
-      column[w] |= ((word & not_top_[w]) << 1) | ((below & not_top_[below_index]) >> kCarry) |
-                   ((word & not_bottom_[w]) >> 1) | ((above & not_bottom_[above_index]) << kCarry);
-      below = word;
-    }
-  }
+  grid->writeColumns(Plane::kInflated, x, tile_y + span.first, span.end - span.first, columns);
 }
 
 }  // namespace fiimap

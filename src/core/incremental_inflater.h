@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fiimap/inflater.h"
+#include "fiimap/kernels.h"
 
 namespace fiimap {
 
@@ -18,6 +19,8 @@ namespace fiimap {
 /// An inflated column is the union of its neighbours' occupied columns, each dilated along z by the
 /// element's half height there. Sorted by half height h this is Horner's scheme: take the columns
 /// of the largest h, dilate by one, add those of h - 1, dilate by one, and so on down to h = 0.
+/// What is added comes from rows of unions of neighbours along y, which the columns of a tile
+/// share: a ball of 10 voxels takes 105 additions instead of 317.
 class IncrementalInflater : public Inflater {
  public:
   explicit IncrementalInflater(const StructuringElement& element);
@@ -25,35 +28,34 @@ class IncrementalInflater : public Inflater {
   void update(const ChangeSet& changes, SlidingGrid* grid) override;
 
  private:
-  /// A run of neighbouring columns at one dx whose half height is the same.
-  struct Run {
-    int dx, dy_first, dy_last;
-  };
   /// Bit y of row x: the column is dirty.
   struct DirtyTile {
     VoxelIndex origin;
     std::array<std::uint32_t, kTileSide> rows;
   };
 
+  void prepareFor(const SlidingGrid& grid);
   void markAround(const std::vector<VoxelIndex>& changed, const SlidingGrid& grid);
   void markColumns(int x, int y_first, int y_last, const SlidingGrid& grid);
   void recompute(const DirtyTile& tile, SlidingGrid* grid);
-  void gather(const VoxelBox& columns, const SlidingGrid& grid);
-  void recomputeRow(int x, int y_first, int y_last, SlidingGrid* grid);
-  std::size_t gatheredOffset(int x, int y) const;
-  void dilateAlongZ(int columns, std::uint64_t* words) const;
+  void widenRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid, Strip* widened);
+  void readRow(int x, int tile_y, StripSpan span, const SlidingGrid& grid);
+  void writeRow(int x, int tile_y, StripSpan span, SlidingGrid* grid);
+  Strip* widenedRow(int row);
+  std::uint64_t* rowInTile(int w);
+  int rowColumns() const { return kTileSide + 2 * reach_; }
 
+  const Kernels& kernels_;
   int reach_;
-  std::vector<std::vector<Run>> runs_by_half_height_;
   std::vector<int> footprint_;  // largest |dy| of the footprint at dx = -reach..reach
+  ColumnDilation dilation_;     // by the element
 
   std::vector<int> dirty_slots_;  // index into dirty_tiles_ by slot of the grid, or -1
   std::vector<DirtyTile> dirty_tiles_;
-  std::vector<std::uint64_t> not_top_, not_bottom_;  // ring masks: all but the window's top, bottom
-  VoxelBox gathered_;                                // columns in occupied_
-  std::vector<std::uint64_t> occupied_;
-  std::vector<std::uint64_t> inflated_;  // columns of one row
-  int words_ = 1;
+  std::vector<std::uint64_t> row_;      // by word, occupied columns of one x in and beside a tile
+  std::vector<Strip> widened_;          // by word, x and half width
+  std::vector<Strip> inflated_;         // by word, of one x
+  std::vector<std::uint64_t> columns_;  // inflated, of one x
 };
 
 }  // namespace fiimap

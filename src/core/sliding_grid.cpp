@@ -21,6 +21,7 @@ SlidingGrid::SlidingGrid(const VoxelIndex& size)
       window_(VoxelLattice::boxAround(VoxelIndex::Zero(), size)),
       layout_(size.z()),
       ring_(size.x(), size.y()),
+      kernels_(kernels()),
       slots_(ring_.slots()),
       zero_row_(static_cast<std::size_t>(kTileSide) * layout_.words(), 0) {}
 
@@ -157,18 +158,12 @@ void SlidingGrid::set(Plane plane, const VoxelIndex& v, bool value) {
 
 void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words) {
   const int count = columns * layout_.words();
-  const std::uint64_t* const old_words = column(plane, x, y);
-  std::uint64_t differences = 0;
-  for (int w = 0; w < count; ++w) differences |= words[w] ^ old_words[w];
-  if (differences == 0) return;
-  Slot& slot = liveSlot(x, y);
-  std::uint64_t* const target = writableTile(&slot) + offsetInTile(plane, x, y, layout_);
-  std::int32_t& voxels = slot.counts[static_cast<int>(plane)];
-  for (int w = 0; w < count; ++w) {
-    if (words[w] == target[w]) continue;  // mostly
-    voxels += countBits(words[w]) - countBits(target[w]);
-    target[w] = words[w];
-  }
+  const Slot* const slot = &slots_[ring_.slotOf(x, y)];
+  const bool writing_costs_more = slot->tile == nullptr || slot->generation != generation_;
+  if (writing_costs_more && std::equal(words, words + count, column(plane, x, y))) return;
+  Slot& live = liveSlot(x, y);
+  std::uint64_t* const target = writableTile(&live) + offsetInTile(plane, x, y, layout_);
+  live.counts[static_cast<int>(plane)] += kernels_.replace(words, count, target);
 }
 
 std::int8_t* SlidingGrid::logOdds(int x, int y) {
@@ -178,9 +173,13 @@ std::int8_t* SlidingGrid::logOdds(int x, int y) {
 
 void SlidingGrid::heightMask(int min_z, int max_z, std::uint64_t* words) const {
   std::fill_n(words, layout_.words(), 0);
-  for (int z = std::max(min_z, window_.min.z()); z < std::min(max_z, window_.max.z()); ++z) {
+  const int end_z = std::min(max_z, window_.max.z());
+  for (int z = std::max(min_z, window_.min.z()); z < end_z;) {
     const int bit = layout_.bitOf(z);
-    words[bit / kWordBits] |= std::uint64_t{1} << (bit % kWordBits);
+    const int first = bit % kWordBits;
+    const int count = std::min(kWordBits - first, end_z - z);  // heights in this word
+    words[bit / kWordBits] |= ~std::uint64_t{0} >> (kWordBits - count) << first;
+    z += count;
   }
 }
 

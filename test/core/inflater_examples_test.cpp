@@ -160,6 +160,23 @@ TEST_P(InflaterExampleTest, ObstacleAtAFaceDoesNotInflateTheOppositeOne) {
   }
 }
 
+// Not for the searches, which take seconds at this radius.
+TEST(IncrementalInflaterTest, AnElementLargerThanTheRingsGapDoesNotReachThroughIt) {
+  // Rings of 128 columns and of 128 bits leave 31 between the window's end and its beginning.
+  constexpr int kLength = 97, kRadius = 32;
+  test::Random random(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int raised : {0, kLength - 1}) {
+      Line line({InflationMethod::kIncremental, 6}, kLength, kRadius, axis, &random);
+      line.flip({0, kLength - 1});
+      line.flip({raised});
+      const std::string inflated(kRadius + 1, '#'), free(kLength - kRadius - 1, '.');
+      EXPECT_EQ(line.inflated(), raised == 0 ? free + inflated : inflated + free)
+          << "axis " << axis;
+    }
+  }
+}
+
 TEST_P(InflaterExampleTest, ObstacleForgottenByASlideLosesItsInflation) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const int side : {-1, 1}) {

@@ -31,9 +31,9 @@ constexpr int kRadiiMm[] = {0,   100, 142, 200, 245, 299, 300, 400,
                             500, 600, 700, 800, 860, 900, 1000};
 
 /// Neither powers of two nor wider than the element throughout, and the seams of words and tiles.
-const VoxelIndex kWindows[] = {{1, 1, 1},   {9, 1, 1},  {1, 7, 3},   {7, 5, 20}, {13, 21, 9},
-                               {33, 18, 4}, {8, 40, 2}, {5, 6, 63},  {6, 5, 64}, {4, 7, 66},
-                               {64, 3, 5},  {3, 65, 6}, {19, 20, 17}};
+const VoxelIndex kWindows[] = {{1, 1, 1},   {9, 1, 1},  {1, 7, 3},    {7, 5, 20}, {13, 21, 9},
+                               {33, 18, 4}, {8, 40, 2}, {5, 6, 63},   {6, 5, 64}, {4, 7, 66},
+                               {64, 3, 5},  {3, 65, 6}, {19, 20, 17}, {3, 5, 140}};
 
 /// How long a history is, how many voxels may flip at once, and one of how many windows is used.
 struct Effort {

@@ -16,14 +16,16 @@
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "vector_depth_kernels.h"
 #include "vector_fusion_kernels.h"
+#include "vector_inflation_kernels.h"
 #include "vector_ray_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiimap {
 namespace HWY_NAMESPACE {
 
-const TargetKernels kTargetKernels{
-    HWY_TARGET, {nullptr, readDepths, projectRow, listEnds, selectEnds, roundRays, walk, freeRuns, observe}};
+const TargetKernels kTargetKernels{HWY_TARGET,
+                                   {nullptr, readDepths, projectRow, listEnds, selectEnds,
+                                    roundRays, walk, freeRuns, observe, widen, dilate, replace}};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace fiimap
