@@ -59,6 +59,7 @@ class DepthProjector {
   /// In single precision.
   struct Limits {
     float min_depth, max_depth, min_length, max_length;
+    float end_cut;  // metres
   };
 
   ReadingCount projectRows(const DepthImage& image, const Eigen::Vector2i& step, RangeData* scan);

@@ -36,7 +36,8 @@ int sampleCount(int size, int margin, int step) {
 DepthProjector::DepthProjector(const MapperConfig& config)
     : config_(config),
       limits_{static_cast<float>(config.min_depth), static_cast<float>(config.max_depth),
-              static_cast<float>(config.min_ray_length), static_cast<float>(config.max_ray_length)},
+              static_cast<float>(config.min_ray_length), static_cast<float>(config.max_ray_length),
+              static_cast<float>(config.ray_end_cut * config.resolution)},
       kernels_(kernels()) {}
 
 void DepthProjector::RayParts::resize(int new_size) {
@@ -173,10 +174,12 @@ void DepthProjector::addOther(float depth, const Eigen::Vector3f& ray, RangeData
   } else {
     ++count->too_far;
   }
-  if (policy == ReadingPolicy::kFree) {
-    const float depth_at_max_length = limits_.max_length / ray_length;
-    scan->misses.push_back(ray * std::min(limits_.max_depth, depth_at_max_length));
-  }
+  if (policy != ReadingPolicy::kFree) return;
+  float free_depth = std::min(limits_.max_depth, limits_.max_length / ray_length);
+  // What was met beyond the range is a surface, too: its rays are cut off as those of others are.
+  const bool met_surface = !std::isnan(depth) && !std::isinf(depth);
+  if (met_surface) free_depth = std::min(free_depth, depth - limits_.end_cut / ray_length);
+  if (free_depth > 0.0f) scan->misses.push_back(ray * free_depth);
 }
 
 }  // namespace fiimap

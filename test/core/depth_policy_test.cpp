@@ -165,6 +165,19 @@ TEST(DepthPolicyTest, FreeEndsAtTheMaximumRayLengthWhereThatIsShorter) {
   }
 }
 
+TEST(DepthPolicyTest, FreeStopsShortOfASurfaceBeyondTheMaximum) {
+  MapperConfig config = allPolicies(kFree);
+  config.resolution = 0.2;
+  config.ray_end_cut = 1.5;  // 0.3 m along the ray
+  expectMiss(read(config, 5.1f), 5.1 - 0.3 / std::sqrt(2.0));
+  expectMiss(readUnits(config, 5100), 5.1 - 0.3 / std::sqrt(2.0));
+  expectMiss(read(config, 5.3f), 5.0);
+  config.max_ray_length = 3.0;
+  expectMiss(read(config, 2.2f), 2.2 - 0.3 / std::sqrt(2.0));
+  config.ray_end_cut = 40.0;
+  EXPECT_TRUE(read(config, 5.1f).scan.misses.empty());
+}
+
 TEST(DepthPolicyTest, RayLengthIsMeasuredAlongTheRay) {
   MapperConfig config = allPolicies(kIgnore);
   config.min_ray_length = 1.0;

@@ -115,7 +115,10 @@ class MapperModel {
     const ExactPoint from = inVoxels(origin_W);
     if (length < config_.max_ray_length) return oracle->addReturn(from, inVoxels(point_W));
     if (config_.beyond_max_depth == ReadingPolicy::kIgnore) return true;
-    return oracle->addMiss(from, inVoxels(origin_W + ray * (config_.max_ray_length / length)));
+    const double cut = config_.ray_end_cut * config_.resolution;
+    const double free_length = std::min(config_.max_ray_length, length - cut);
+    if (free_length < 1e-4) return free_length < -1e-4;
+    return oracle->addMiss(from, inVoxels(origin_W + ray * (free_length / length)));
   }
 
   ExactPoint inVoxels(const Eigen::Vector3d& point_W) const {

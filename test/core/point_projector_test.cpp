@@ -92,6 +92,19 @@ TEST(PointProjectorTest, RaysAreCutOffAtTheirMaximumLength) {
   EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(-5.0f, 0.0f, 0.0f)).norm(), kTolerance);
 }
 
+TEST(PointProjectorTest, RaysStopShortOfSurfacesBeyondTheirMaximumLength) {
+  MapperConfig config = limits(0.5, 5.0);
+  config.resolution = 0.2;
+  config.ray_end_cut = 1.5;
+  const Projected result = project(config, {{0.0f, 5.1f, 0.0f}, {0.0f, 0.0f, 5.4f}});
+  EXPECT_EQ(result.count.too_far, 2u);
+  ASSERT_EQ(result.scan.misses.size(), 2u);
+  EXPECT_LT((result.scan.misses[0] - Eigen::Vector3f(0.0f, 4.8f, 0.0f)).norm(), kTolerance);
+  EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(0.0f, 0.0f, 5.0f)).norm(), kTolerance);
+  config.ray_end_cut = 30.0;
+  EXPECT_TRUE(project(config, {{0.0f, 5.1f, 0.0f}}).scan.misses.empty());
+}
+
 TEST(PointProjectorTest, FarPointsAreIgnoredWhenThePolicySaysSo) {
   const Projected result =
       project(limits(0.5, 5.0, ReadingPolicy::kIgnore), {{30.0f, 40.0f, 0.0f}});
