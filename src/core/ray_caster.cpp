@@ -199,7 +199,7 @@ void RayCaster::castStraight(const RayEnds& ends, std::int32_t k, float cut, Sca
   walkTo(ends.x[k], ends.y[k], *mask);
   int columns = walk_.size;
   while (columns > 0 && walk_.t[columns - 1] > t_end) --columns;
-  walk_.t[columns] = std::min(walk_.t[columns], t_end);
+  walk_.t[columns] = t_end;
   RayRuns ray;
   ray.column = walk_.column.data();
   ray.t = walk_.t.data();
