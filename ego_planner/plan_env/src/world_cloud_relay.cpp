@@ -7,16 +7,18 @@
 
 namespace {
 
-constexpr int kQueue = 10;
+constexpr int kRelayQueue = 10;
 
 }  // namespace
 
 WorldCloudRelay::WorldCloudRelay(ros::NodeHandle node, const Topics& topics)
-    : cloud_publisher_(node.advertise<sensor_msgs::PointCloud2>(topics.relative_cloud, kQueue)),
-      pose_publisher_(node.advertise<geometry_msgs::PoseStamped>(topics.relative_pose, kQueue)) {
-  odom_subscriber_ = node.subscribe(topics.odom, kQueue, &WorldCloudRelay::onOdometry, this);
-  pose_subscriber_ = node.subscribe(topics.pose, kQueue, &WorldCloudRelay::onPose, this);
-  cloud_subscriber_ = node.subscribe(topics.cloud, kQueue, &WorldCloudRelay::onCloud, this);
+    : cloud_publisher_(
+          node.advertise<sensor_msgs::PointCloud2>(topics.relative_cloud, kRelayQueue)),
+      pose_publisher_(
+          node.advertise<geometry_msgs::PoseStamped>(topics.relative_pose, kRelayQueue)) {
+  odom_subscriber_ = node.subscribe(topics.odom, kRelayQueue, &WorldCloudRelay::onOdometry, this);
+  pose_subscriber_ = node.subscribe(topics.pose, kRelayQueue, &WorldCloudRelay::onPose, this);
+  cloud_subscriber_ = node.subscribe(topics.cloud, kRelayQueue, &WorldCloudRelay::onCloud, this);
 }
 
 WorldCloudRelay::~WorldCloudRelay() {
