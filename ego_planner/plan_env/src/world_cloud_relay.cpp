@@ -50,10 +50,12 @@ void WorldCloudRelay::onCloud(const sensor_msgs::PointCloud2::ConstPtr& message)
   pose->pose.orientation.w = 1.0;
   const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(*message);
   const geometry_msgs::Point& p = pose->pose.position;
-  for (sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x"); xyz != xyz.end(); ++xyz) {
-    xyz[0] -= static_cast<float>(p.x);
-    xyz[1] -= static_cast<float>(p.y);
-    xyz[2] -= static_cast<float>(p.z);
+  if (!cloud->data.empty()) {  // the iterator asks for the first byte
+    for (sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x"); xyz != xyz.end(); ++xyz) {
+      xyz[0] -= static_cast<float>(p.x);
+      xyz[1] -= static_cast<float>(p.y);
+      xyz[2] -= static_cast<float>(p.z);
+    }
   }
   pose_publisher_.publish(geometry_msgs::PoseStamped::ConstPtr(pose));
   cloud_publisher_.publish(sensor_msgs::PointCloud2::ConstPtr(cloud));
