@@ -10,8 +10,8 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr double kResolution = 0.1;  // m
-constexpr int kReach = 2;            // voxels
+constexpr double kCheckedResolution = 0.1;  // m
+constexpr int kCheckedReach = 2;            // voxels
 /// Measured: at least .997 on the excerpt and in the kitchen. A baseline with its axes, frames or
 /// probabilities mixed up falls far below.
 constexpr double kMinShareFound = 0.95;
@@ -44,7 +44,7 @@ double shareFound(const VoxelSet& voxels, const VoxelSet& others) {
 
 /// Voxels in which the two inflated layers differ, where the batch knows all obstacles around.
 std::size_t differences(const InflaterReplay& ours, const BatchReplay& batch, const VoxelBox& box) {
-  const VoxelBox inner{box.min.array() + kReach, box.max.array() - kReach};
+  const VoxelBox inner{box.min.array() + kCheckedReach, box.max.array() - kCheckedReach};
   std::size_t count = 0;
   for (int x = inner.min.x(); x < inner.max.x(); ++x) {
     for (int y = inner.min.y(); y < inner.max.y(); ++y) {
@@ -59,7 +59,7 @@ std::size_t differences(const InflaterReplay& ours, const BatchReplay& batch, co
 
 bool inflationAgrees(const Recording& recording, const std::vector<InflationStep>& steps,
                      ElementShape shape, InflationMethod method, const char* name) {
-  MapperConfig config = configAt(kResolution, kReach, shape);
+  MapperConfig config = configAt(kCheckedResolution, kCheckedReach, shape);
   config.inflation_method = method;
   InflaterReplay ours(config);
   BatchReplay batch(config, boxAroundFrames(config, recording.frames));
@@ -78,7 +78,7 @@ bool inflationAgrees(const Recording& recording, const std::vector<InflationStep
 }
 
 bool occupancyAgrees(const Recording& recording) {
-  const MapperConfig config = configAt(kResolution, kReach);
+  const MapperConfig config = configAt(kCheckedResolution, kCheckedReach);
   const VoxelBox box = updateBox(config, recording.frames.back().pose);
   const auto occupied = [&](const char* name) {
     const auto method = makeMethod(name, config, recording.frames);
@@ -103,7 +103,7 @@ bool occupancyAgrees(const Recording& recording) {
 
 bool checkAgreement(const Recording& recording) {
   const std::vector<InflationStep> steps =
-      recordInflationSteps(recording.frames, configAt(kResolution, kReach));
+      recordInflationSteps(recording.frames, configAt(kCheckedResolution, kCheckedReach));
   bool agree = inflationAgrees(recording, steps, ElementShape::kCube, InflationMethod::kIncremental,
                                "incremental cube");
   agree &= inflationAgrees(recording, steps, ElementShape::kBall, InflationMethod::kIncremental,

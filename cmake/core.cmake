@@ -24,4 +24,6 @@ if(TARGET hwy::hwy)
   target_link_libraries(fiimap_core PRIVATE hwy::hwy)
   # vector_kernels.cpp includes itself.
   target_include_directories(fiimap_core PRIVATE ${core_root}/src/core/kernels)
+  set_source_files_properties(${core_root}/src/core/kernels/vector_kernels.cpp
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()

@@ -7,6 +7,11 @@
 
 namespace fiimap::bench {
 
+// What holds where an experiment does not vary it.
+constexpr double kResolution = 0.1;  // m
+constexpr int kReach = 2;            // voxels
+constexpr unsigned kSeed = 20230312;
+
 // Each experiment runs its methods in turns over the frames of a recording, in one thread, and
 // notes the thread's CPU time frame by frame.
 

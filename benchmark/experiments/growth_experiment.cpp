@@ -10,9 +10,6 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr double kResolution = 0.1;  // m
-constexpr int kReach = 2;            // voxels
-
 struct Variant {
   nlohmann::json setting;
   MapperConfig config;

@@ -9,8 +9,7 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr double kResolution = 0.1;  // m
-constexpr int kMaxReach = 10;        // voxels
+constexpr int kMaxReach = 10;  // voxels
 /// A frame of the searches takes seconds beyond.
 constexpr int kMaxBfsReach = 4;  // voxels
 

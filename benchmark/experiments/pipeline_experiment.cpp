@@ -10,8 +10,6 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr int kReach = 2;  // voxels
-
 struct Comparison {
   double resolution;  // m
   std::vector<std::string> methods;

@@ -7,10 +7,8 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr int kReach = 2;  // voxels
 constexpr int kQueries = 10000;
 constexpr double kNear = 3.0;  // m around the vehicle
-constexpr unsigned kSeed = 20230312;
 
 std::vector<Eigen::Vector3d> offsetsNearVehicle() {
   std::mt19937 random(kSeed);

@@ -14,14 +14,12 @@
 namespace fiimap::bench {
 namespace {
 
-constexpr int kReach = 2;             // voxels
 constexpr int kRounds = 10;           // of each event
 constexpr int kUsualFrames = 5;       // between two events
 constexpr double kTeleport = 1000.0;  // m
 constexpr double kFlippedShare = 0.3;
 constexpr int kPatchSide = 16;   // pixels
 constexpr double kNearer = 0.7;  // where a patch of the surface appears
-constexpr unsigned kSeed = 20230312;
 
 /// A map in use, into which events are thrown.
 class EventfulMap {

@@ -6,13 +6,13 @@
 namespace fiimap {
 namespace {
 
-constexpr double kLookAhead = 0.8;  // s
-constexpr double kMinWay = 0.15;    // m, in that time: else there is no direction to speak of
+constexpr double kHeadingLead = 0.8;  // s
+constexpr double kMinWay = 0.15;      // m, in that time: else there is no direction to speak of
 
 std::optional<double> wantedHeading(const FlownTrajectory& flown, double time) {
   const Trajectory& trajectory = flown.at(time);
   if (trajectory.heading()) return trajectory.heading();
-  const double later = time + kLookAhead;
+  const double later = time + kHeadingLead;
   const Eigen::Vector3d way = flown.at(later).at(later).position - trajectory.at(time).position;
   if (way.head<2>().norm() < kMinWay) return std::nullopt;
   return std::atan2(way.y(), way.x());

@@ -8,7 +8,9 @@
 namespace fiimap {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError(DropReason::kBadCloud, what); }
+[[noreturn]] void refuseCloud(const std::string& what) {
+  throw InputError(DropReason::kBadCloud, what);
+}
 
 bool machineIsBigEndian() {
   const std::uint16_t one = 1;
@@ -21,29 +23,30 @@ bool machineIsBigEndian() {
 std::size_t offsetOf(const std::string& name, const sensor_msgs::PointCloud2& cloud) {
   const auto is_wanted = [&name](const sensor_msgs::PointField& f) { return f.name == name; };
   const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(), is_wanted);
-  if (field == cloud.fields.end()) refuse("the cloud has no field " + name);
+  if (field == cloud.fields.end()) refuseCloud("the cloud has no field " + name);
   if (std::any_of(field + 1, cloud.fields.end(), is_wanted)) {
-    refuse("the cloud has more than one field " + name);
+    refuseCloud("the cloud has more than one field " + name);
   }
   if (field->datatype != sensor_msgs::PointField::FLOAT32) {
-    refuse("field " + name + " is not of type float32");
+    refuseCloud("field " + name + " is not of type float32");
   }
   if (std::size_t{field->offset} + sizeof(float) > cloud.point_step) {
-    refuse("field " + name + " lies outside of point_step " + std::to_string(cloud.point_step));
+    refuseCloud("field " + name + " lies outside of point_step " +
+                std::to_string(cloud.point_step));
   }
   return field->offset;
 }
 
 void requireConsistent(const sensor_msgs::PointCloud2& cloud) {
   if (static_cast<bool>(cloud.is_bigendian) != machineIsBigEndian()) {
-    refuse("the cloud's byte order is not the machine's");
+    refuseCloud("the cloud's byte order is not the machine's");
   }
   if (std::size_t{cloud.width} * cloud.point_step > cloud.row_step) {
-    refuse("row_step " + std::to_string(cloud.row_step) + " is less than width * point_step");
+    refuseCloud("row_step " + std::to_string(cloud.row_step) + " is less than width * point_step");
   }
   if (std::size_t{cloud.row_step} * cloud.height > cloud.data.size()) {
-    refuse("data holds " + std::to_string(cloud.data.size()) +
-           " bytes, less than row_step * height");
+    refuseCloud("data holds " + std::to_string(cloud.data.size()) +
+                " bytes, less than row_step * height");
   }
 }
 

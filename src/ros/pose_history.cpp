@@ -11,8 +11,8 @@
 namespace fiimap {
 namespace {
 
-constexpr double kNormTolerance = 0.05;  // of quaternions
-constexpr double kMaxPoseRate = 1000.0;  // Hz; with a faster source the history is shorter
+constexpr double kQuaternionTolerance = 0.05;  // of quaternions
+constexpr double kMaxPoseRate = 1000.0;        // Hz; with a faster source the history is shorter
 constexpr unsigned int kMinCachedPoses = 100;
 
 }  // namespace
@@ -25,7 +25,7 @@ Eigen::Isometry3d decodeTransform(const geometry_msgs::Transform& transform) {
   if (!translation.allFinite() || !rotation.coeffs().allFinite()) {
     throw InputError(DropReason::kBadPose, "a pose is not finite");
   }
-  if (std::abs(rotation.norm() - 1.0) > kNormTolerance) {
+  if (std::abs(rotation.norm() - 1.0) > kQuaternionTolerance) {
     throw InputError(DropReason::kBadPose,
                      "a pose's quaternion has norm " + std::to_string(rotation.norm()));
   }

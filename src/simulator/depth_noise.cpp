@@ -10,7 +10,7 @@ namespace fiimap::sim {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::infinity();
-constexpr std::uint64_t kStream = 1000;  // of random numbers: the first of the frames'
+constexpr std::uint64_t kFrameStream = 1000;  // of random numbers: the first of the frames'
 
 }  // namespace
 
@@ -21,7 +21,7 @@ DepthNoise::DepthNoise(const NoiseConfig& config, double focal_length, std::uint
       seed_(seed) {}
 
 void DepthNoise::apply(std::uint64_t number, DepthFrame* frame) const {
-  Random random(seed_, kStream + number);
+  Random random(seed_, kFrameStream + number);
   const auto step = static_cast<float>(config_.disparity_step);
   const auto noise = static_cast<float>(config_.disparity_noise);
   std::vector<bool> hidden(static_cast<std::size_t>(frame->width));

@@ -7,8 +7,9 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr std::uint64_t kStream = std::uint64_t{1} << 40;  // of random numbers: the first scan's
-constexpr double kNearest = 0.1;                           // m
+constexpr std::uint64_t kScanStream = std::uint64_t{1}
+                                      << 40;  // of random numbers: the first scan's
+constexpr double kNearest = 0.1;              // m
 
 Eigen::Vector3f directionOf(double azimuth, double elevation) {
   return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
@@ -58,7 +59,7 @@ std::vector<Eigen::Vector3f> Lidar::scan(const RayScene& scene, const Eigen::Iso
                                          std::uint64_t number) {
   if (config_.lidar == LidarKind::kLivox) rays_ = RayBundle(livoxDirections(config_, number));
   const RayHits& hits = rays_.cast(scene, T_W_L, config_.lidar_range, false);
-  Random random(seed_, kStream + number);
+  Random random(seed_, kScanStream + number);
   std::vector<Eigen::Vector3f> points_L;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (!std::isfinite(hits.lengths[i]) || hits.lengths[i] < kNearest) continue;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kPassedWithin = 0.5;  // voxel edges
 constexpr double kNowBeyond = 1.0;     // voxel edges
 
-bool isOccupiedNear(const Snapshot& map, const VoxelIndex& v) {
+bool isOccupiedBeside(const Snapshot& map, const VoxelIndex& v) {
   if (map.occupancy(v) == Occupancy::kOccupied) return true;
   for (int axis = 0; axis < 3; ++axis) {
     for (const int step : {-1, 1}) {
@@ -47,7 +47,7 @@ void compareWithScene(const Snapshot& map, const ExactScene& scene, const SeenSu
   surface.forEach([&](const Eigen::Vector3d& point_W, int scans) {
     const VoxelIndex v = map.lattice().indexOf(point_W);
     if (!inside.contains(v)) return;
-    const bool found = isOccupiedNear(map, v);
+    const bool found = isOccupiedBeside(map, v);
     ++count->seen;
     if (found) ++count->seen_found;
     if (scans < TruthCount::kOften) return;

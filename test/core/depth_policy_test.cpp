@@ -5,17 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "fiimap/depth_projector.h"
+#include "special_numbers.h"
 
 /// What readings without a usable distance say: each kind has its own policy.
 namespace fiimap {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kTolerance = 1e-4;  // m
+constexpr double kPolicyTolerance = 1e-4;  // m
 
 /// One pixel, 45 degrees off the optical axis, so that depth and ray length differ by sqrt(2).
-constexpr PinholeIntrinsics kCamera{100.0, 100.0, -100.0, 0.0};
+constexpr PinholeIntrinsics kPolicyCamera{100.0, 100.0, -100.0, 0.0};
 
 enum class Kind { kReturn, kInvalid, kTooNear, kInfinite, kTooFar };
 
@@ -43,16 +42,16 @@ Reading checked(Reading reading) {
 Reading read(const MapperConfig& config, float metres) {
   const DepthImage image{&metres, DepthImage::Format::kFloat32, 1, 1, sizeof(metres)};
   Reading reading;
-  reading.count =
-      DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(), &reading.scan);
+  reading.count = DepthProjector(config).project(image, kPolicyCamera,
+                                                 Eigen::Isometry3d::Identity(), &reading.scan);
   return checked(reading);
 }
 
 Reading readUnits(const MapperConfig& config, std::uint16_t units) {
   const DepthImage image{&units, DepthImage::Format::kUint16, 1, 1, sizeof(units)};
   Reading reading;
-  reading.count =
-      DepthProjector(config).project(image, kCamera, Eigen::Isometry3d::Identity(), &reading.scan);
+  reading.count = DepthProjector(config).project(image, kPolicyCamera,
+                                                 Eigen::Isometry3d::Identity(), &reading.scan);
   return checked(reading);
 }
 
@@ -78,9 +77,9 @@ constexpr ReadingPolicy kFree = ReadingPolicy::kFree;
 /// The ray is free up to this depth.
 void expectMiss(const Reading& reading, double depth) {
   ASSERT_EQ(reading.scan.misses.size(), 1u);
-  EXPECT_NEAR(reading.scan.misses[0].x(), depth, kTolerance);
-  EXPECT_NEAR(reading.scan.misses[0].y(), 0.0, kTolerance);
-  EXPECT_NEAR(reading.scan.misses[0].z(), depth, kTolerance);
+  EXPECT_NEAR(reading.scan.misses[0].x(), depth, kPolicyTolerance);
+  EXPECT_NEAR(reading.scan.misses[0].y(), 0.0, kPolicyTolerance);
+  EXPECT_NEAR(reading.scan.misses[0].z(), depth, kPolicyTolerance);
 }
 
 TEST(DepthPolicyTest, KindsOfFloatReadings) {

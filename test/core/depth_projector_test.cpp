@@ -8,12 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "oracle.h"
+#include "special_numbers.h"
 
 namespace fiimap {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr PinholeIntrinsics kCamera{100.0, 110.0, 9.5, 7.25};
 /// Single precision at some metres.
 constexpr double kTolerance = 1e-5;

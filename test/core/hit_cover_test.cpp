@@ -11,9 +11,9 @@
 namespace fiimap {
 namespace {
 
-constexpr double kResolution = 0.25;
+constexpr double kCoverResolution = 0.25;
 constexpr double kEndCut = 1.5;
-const VoxelBox kBox{{-3, -20, -40}, {25, 22, 60}};
+const VoxelBox kCoverBox{{-3, -20, -40}, {25, 22, 60}};
 
 /// Rows of neighbouring returns, in voxels: a far wall, and in front of it slivers that end
 /// anywhere within a voxel. Coordinates are odd thirty-seconds: no rounding, and no point on a
@@ -21,9 +21,9 @@ const VoxelBox kBox{{-3, -20, -40}, {25, 22, 60}};
 /// From a sensor before the box, some rays look away from it.
 RangeData rows(test::Random* random, bool before_box) {
   RangeData scan;
-  scan.origin = Eigen::Vector3d(before_box ? -7.5 : 0.5, 0.5, 0.5) * kResolution;
+  scan.origin = Eigen::Vector3d(before_box ? -7.5 : 0.5, 0.5, 0.5) * kCoverResolution;
   for (int i = 0; before_box && i < 500; ++i) {
-    scan.returns.push_back((Eigen::Vector3d(-10.0, i / 4.0, 3.0) * kResolution).cast<float>());
+    scan.returns.push_back((Eigen::Vector3d(-10.0, i / 4.0, 3.0) * kCoverResolution).cast<float>());
   }
   scan.returns_per_steradian = test::uniformReal(*random, 500.0, 4000.0);
   for (int row = 0; row < 60; ++row) {
@@ -32,14 +32,14 @@ RangeData rows(test::Random* random, bool before_box) {
     for (int i = 0; i < 120; ++i) {
       const double distance = i < sliver_end ? 8.0 : 16.0;
       const Eigen::Vector3d end(distance + 1.0 / 32.0, (2 * i - 121) / 32.0, height);
-      scan.returns.push_back((end * kResolution - scan.origin).cast<float>());
+      scan.returns.push_back((end * kCoverResolution - scan.origin).cast<float>());
     }
   }
   return scan;
 }
 
 TEST(HitCoverTest, DropsFreeVoxelsThatReturnsCoverTooLittle) {
-  const VoxelLattice lattice(kResolution);
+  const VoxelLattice lattice(kCoverResolution);
   std::size_t dropped = 0, kept = 0;
   for (int seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -51,14 +51,14 @@ TEST(HitCoverTest, DropsFreeVoxelsThatReturnsCoverTooLittle) {
       ++returns[lattice.indexOf(scan.origin + end.cast<double>())];
     }
     ScanMask all, covered;
-    RayCaster(lattice, kEndCut).cast(scan, kBox, &all);
-    RayCaster(lattice, kEndCut, min_cover).cast(scan, kBox, &covered);
-    test::forEachVoxel(kBox, [&](const VoxelIndex& v) {
-      const VoxelIndex at = v - kBox.min;
+    RayCaster(lattice, kEndCut).cast(scan, kCoverBox, &all);
+    RayCaster(lattice, kEndCut, min_cover).cast(scan, kCoverBox, &covered);
+    test::forEachVoxel(kCoverBox, [&](const VoxelIndex& v) {
+      const VoxelIndex at = v - kCoverBox.min;
       const bool free = all.test(ScanMask::kFree, at);
       ASSERT_EQ(covered.test(ScanMask::kFree, at), free);
       const double distance = (lattice.centerOf(v) - scan.origin).norm();
-      const double full = scan.returns_per_steradian * std::pow(kResolution / distance, 2);
+      const double full = scan.returns_per_steradian * std::pow(kCoverResolution / distance, 2);
       const auto found = returns.find(v);
       const double cover = found == returns.end() ? 0.0 : found->second / full;
       if (std::abs(cover - min_cover) < 1e-4) return;  // rounding decides
@@ -75,11 +75,11 @@ TEST(HitCoverTest, KeepsAllHitsOfAScanOfUnknownDensity) {
   test::Random random(1);
   RangeData scan = rows(&random, false);
   scan.returns_per_steradian = 0.0;
-  const VoxelLattice lattice(kResolution);
+  const VoxelLattice lattice(kCoverResolution);
   ScanMask all, covered;
-  RayCaster(lattice, kEndCut).cast(scan, kBox, &all);
-  RayCaster(lattice, kEndCut, 1.0).cast(scan, kBox, &covered);
-  test::forEachVoxel({VoxelIndex::Zero(), kBox.size()}, [&](const VoxelIndex& at) {
+  RayCaster(lattice, kEndCut).cast(scan, kCoverBox, &all);
+  RayCaster(lattice, kEndCut, 1.0).cast(scan, kCoverBox, &covered);
+  test::forEachVoxel({VoxelIndex::Zero(), kCoverBox.size()}, [&](const VoxelIndex& at) {
     ASSERT_EQ(covered.test(ScanMask::kHit, at), all.test(ScanMask::kHit, at));
   });
 }

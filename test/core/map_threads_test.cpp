@@ -19,7 +19,7 @@ namespace {
 constexpr char kId[] = "/threads/mapping";
 
 /// Whether cells, counts and inflation of a snapshot belong together.
-bool isConsistent(const Snapshot& snapshot) {
+bool isWhole(const Snapshot& snapshot) {
   for (const Plane plane : {Plane::kKnown, Plane::kOccupied, Plane::kInflated}) {
     const auto voxels = snapshot.voxels(plane, snapshot.window());
     if (static_cast<std::int64_t>(voxels.size()) != snapshot.count(plane)) return false;
@@ -39,9 +39,9 @@ void read(const std::atomic<bool>& done, std::atomic<int>* wrong, std::atomic<in
     if (handle == nullptr) continue;
     const std::shared_ptr<const Snapshot> snapshot = handle->latest();
     if (snapshot == nullptr) continue;
-    if (!isConsistent(*snapshot)) ++*wrong;
+    if (!isWhole(*snapshot)) ++*wrong;
     if (held == nullptr || snapshot->info().sequence % 16 == 0) held = snapshot;
-    if (!isConsistent(*held)) ++*wrong;
+    if (!isWhole(*held)) ++*wrong;
     ++*read_maps;
     std::this_thread::yield();
   } while (!done.load());

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "fiimap/parameters.h"
+#include "refusal.h"
 
 namespace fiimap {
 namespace {
@@ -75,15 +76,6 @@ std::vector<FieldOfParameter> fields() {
   };
 }
 
-std::string refusal(const Parameter& parameter, const std::string& text) {
-  try {
-    parameter.set(text);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 std::string refusal(const MapperConfig& config) {
   try {
     config.validate();
@@ -91,10 +83,6 @@ std::string refusal(const MapperConfig& config) {
     return error.what();
   }
   return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(MapperParametersTest, HasExactlyTheKnownNames) {

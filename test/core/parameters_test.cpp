@@ -7,23 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "oracle.h"
+#include "refusal.h"
 
 namespace fiimap {
 namespace {
-
-/// The message of the refusal; empty when the value is accepted.
-std::string refusal(const Parameter& parameter, const std::string& text) {
-  try {
-    parameter.set(text);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(NumberParameterTest, AcceptsItsRangeWithBothEnds) {
   double field = 0.0;

@@ -1,18 +1,16 @@
 #include "fiimap/point_projector.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "oracle.h"
+#include "special_numbers.h"
 
 namespace fiimap {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kTolerance = 1e-5;  // m
+constexpr double kPointTolerance = 1e-5;  // m
 
 MapperConfig limits(double min, double max, ReadingPolicy beyond = ReadingPolicy::kFree) {
   MapperConfig config;
@@ -52,7 +50,8 @@ TEST(PointProjectorTest, ReturnsAreOffsetsFromTheSensorInWorldAxes) {
     EXPECT_EQ(result.scan.origin, T_W_S.translation());
     ASSERT_EQ(result.scan.returns.size(), 1u);
     const Eigen::Vector3d expected = T_W_S * point_S.cast<double>() - T_W_S.translation();
-    EXPECT_LT((result.scan.returns[0].cast<double>() - expected).norm(), kTolerance) << "seed 71";
+    EXPECT_LT((result.scan.returns[0].cast<double>() - expected).norm(), kPointTolerance)
+        << "seed 71";
   }
 }
 
@@ -88,8 +87,8 @@ TEST(PointProjectorTest, RaysAreCutOffAtTheirMaximumLength) {
   EXPECT_EQ(result.count.too_far, 2u);
   EXPECT_EQ(result.count.returns, 1u);
   ASSERT_EQ(result.scan.misses.size(), 2u);
-  EXPECT_LT((result.scan.misses[0] - Eigen::Vector3f(3.0f, 4.0f, 0.0f)).norm(), kTolerance);
-  EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(-5.0f, 0.0f, 0.0f)).norm(), kTolerance);
+  EXPECT_LT((result.scan.misses[0] - Eigen::Vector3f(3.0f, 4.0f, 0.0f)).norm(), kPointTolerance);
+  EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(-5.0f, 0.0f, 0.0f)).norm(), kPointTolerance);
 }
 
 TEST(PointProjectorTest, RaysStopShortOfSurfacesBeyondTheirMaximumLength) {

@@ -11,7 +11,7 @@
 namespace fiimap {
 namespace {
 
-constexpr Plane kPlanes[] = {Plane::kKnown, Plane::kOccupied, Plane::kInflated};
+constexpr Plane kAllPlanes[] = {Plane::kKnown, Plane::kOccupied, Plane::kInflated};
 
 /// What the grid should be, as sets of voxels and a map of log-odds of the known ones.
 struct GridModel {
@@ -25,7 +25,7 @@ struct GridModel {
   test::VoxelSet moveTo(const VoxelIndex& min) {
     window = {min, min + window.size()};
     test::VoxelSet forgotten;
-    for (const Plane p : kPlanes) {
+    for (const Plane p : kAllPlanes) {
       for (auto v = plane(p).begin(); v != plane(p).end();) {
         const bool stays = window.contains(*v);
         if (!stays && p == Plane::kOccupied) forgotten.insert(*v);
@@ -93,7 +93,7 @@ class History {
 
   void check() {
     ASSERT_NO_FATAL_FAILURE(checkBoxOfVoxels());
-    for (const Plane plane : kPlanes) {
+    for (const Plane plane : kAllPlanes) {
       test::VoxelField expected(model_.window);
       for (const VoxelIndex& v : model_.plane(plane)) expected.mark(v);
       ASSERT_TRUE(test::planeEquals(grid_, plane, expected)) << "plane " << static_cast<int>(plane);
@@ -112,7 +112,7 @@ class History {
     const VoxelIndex b = test::voxelNearFaces(random_, model_.window);
     VoxelBox box{a.cwiseMin(b), a.cwiseMax(b) + VoxelIndex::Ones()};
     if (test::chance(random_, 0.3)) box.max.array() += 100;
-    const Plane plane = kPlanes[test::uniformInt(random_, 0, 2)];
+    const Plane plane = kAllPlanes[test::uniformInt(random_, 0, 2)];
     test::VoxelSet expected, visited;
     for (const VoxelIndex& v : model_.plane(plane)) {
       if (box.contains(v)) expected.insert(v);
@@ -148,7 +148,7 @@ class History {
     const int voxels = test::uniformInt(random_, 1, 60);
     for (int i = 0; i < voxels; ++i) {
       const VoxelIndex v = test::voxelNearFaces(random_, model_.window);
-      const Plane plane = kPlanes[test::uniformInt(random_, 0, 2)];
+      const Plane plane = kAllPlanes[test::uniformInt(random_, 0, 2)];
       const bool value = test::chance(random_, 0.7);
       grid_.set(plane, v, value);
       if (value) {
@@ -192,7 +192,7 @@ class History {
   void clearSomething() {
     if (test::chance(random_, 0.5)) {
       grid_.clear();
-      for (const Plane plane : kPlanes) model_.plane(plane).clear();
+      for (const Plane plane : kAllPlanes) model_.plane(plane).clear();
       model_.log_odds.clear();
       return;
     }

@@ -42,7 +42,7 @@ void sendEveryOtherType(FaultRig* rig) {
   }
 }
 
-void sendTwiceTheSameStamp(FaultRig* rig) {
+void sendTwoCloudsOfOneStamp(FaultRig* rig) {
   const Frame first = rig->next();
   Frame second = rig->next();
   second.cloud->header.stamp = first.cloud->header.stamp;
@@ -112,7 +112,7 @@ MessageFaults cloudFaults() {
         },
         true}},
       {"cloud_zero_stamp", cloud([](PointCloud2* c) { c->header.stamp = ros::Time(); })},
-      {"cloud_same_stamp", {RigInputs::kPoints, sendTwiceTheSameStamp}},
+      {"cloud_same_stamp", {RigInputs::kPoints, sendTwoCloudsOfOneStamp}},
   };
 }
 

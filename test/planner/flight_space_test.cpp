@@ -8,13 +8,13 @@
 namespace fiimap {
 namespace {
 
-constexpr double kResolution = 0.5;
+constexpr double kSpaceResolution = 0.5;
 const VoxelIndex kObstacle(2, 2, 2), kInflated(2, 2, 1), kUnknown(-3, 0, 0), kFree(0, 0, 0),
     kOutside(4, 0, 0);
 
 class FlightSpaceTest : public ::testing::Test {
  protected:
-  FlightSpaceTest() : map_({8, 8, 8}, kResolution, 0.5) {
+  FlightSpaceTest() : map_({8, 8, 8}, kSpaceResolution, 0.5) {
     map_.occupy(kObstacle);
     map_.forget({kUnknown, kUnknown + VoxelIndex::Ones()});
   }
@@ -50,7 +50,7 @@ TEST_F(FlightSpaceTest, WhatIsNotSeenIsWhatTheUserChose) {
 
 TEST(FlightSpaceViewTest, UnseenPlacesAreFreeWhereTheVehicleLooks) {
   test::Random random(541);
-  test::PlannerMap map({30, 30, 30}, kResolution, 0.0);
+  test::PlannerMap map({30, 30, 30}, kSpaceResolution, 0.0);
   map.forget(map.window());
   for (int round = 0; round < 200; ++round) {
     SCOPED_TRACE("seed 541, round " + std::to_string(round));
@@ -61,7 +61,7 @@ TEST(FlightSpaceViewTest, UnseenPlacesAreFreeWhereTheVehicleLooks) {
     const FlightSpace space = map.space(rules, vehicle);
     const VoxelIndex v = test::uniformVoxel(random, map.window());
     const Eigen::Vector3d offset = space.lattice().centerOf(v) - vehicle;
-    const double climb = std::abs(offset.z()) - 1.5 * kResolution;  // less counts as level
+    const double climb = std::abs(offset.z()) - 1.5 * kSpaceResolution;  // less counts as level
     const double elevation = std::atan2(climb, offset.head<2>().norm());
     EXPECT_EQ(space.isFree(v), climb <= 0.0 || elevation <= rules.view_elevation);
   }

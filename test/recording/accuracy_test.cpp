@@ -3,25 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "accuracy_command.h"
 #include "accuracy_report.h"
 #include "held_out_split.h"
+#include "json_file.h"
 #include "scan_prediction.h"
 #include "temporary_file.h"
 #include "voxel_walk.h"
 
 namespace fiimap {
 namespace {
-
-nlohmann::json readJson(const std::string& file) {
-  nlohmann::json json;
-  std::ifstream(file) >> json;
-  return json;
-}
 
 constexpr double kResolution = 0.5;  // m; with points at quarters nothing is rounded
 
@@ -230,8 +224,9 @@ TEST(AccuracyCommandTest, HoldsOutEveryFoldInTurn) {
   EXPECT_NEAR(all.at("results")[0].at("hit_rate_mean"), sum / 110, 1e-12);
 }
 
-// Where the rules are the same, two implementations that share nothing make nearly the same map. What
-// remains: OctoMap moves points to the middle of their voxel, and so some of them beyond its range.
+// Where the rules are the same, two implementations that share nothing make nearly the same map.
+// What remains: OctoMap moves points to the middle of their voxel, and so some of them beyond its
+// range.
 TEST(AccuracyCommandTest, AgreesWithOctomapWhereTheRulesDo) {
   const TemporaryFile json_file("");
   AccuracyOptions options;

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "baselines/inflation_replay.h"
 #include "compare_command.h"
 #include "compare_report.h"
+#include "json_file.h"
 #include "quantiles.h"
 #include "sweep_command.h"
 #include "temporary_file.h"
@@ -22,12 +22,6 @@ namespace {
 
 constexpr char kCow[] = FIIMAP_SOURCE_DIR "/data/cow_and_lady_excerpt.bag";  // 4 clouds
 constexpr char kCowConfig[] = FIIMAP_SOURCE_DIR "/config/cow_and_lady.yaml";
-
-nlohmann::json readJson(const std::string& file) {
-  nlohmann::json json;
-  std::ifstream(file) >> json;
-  return json;
-}
 
 template <typename Options>
 Options cowOptions(const std::string& json_file) {

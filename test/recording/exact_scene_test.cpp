@@ -21,8 +21,8 @@
 namespace fiimap {
 namespace {
 
-const std::string kBag = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_excerpt.bag";
-const std::string kScene = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_scene.json";
+const std::string kFlightBag = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_excerpt.bag";
+const std::string kFlightScene = std::string(FIIMAP_SOURCE_DIR) + "/data/synth_flight_scene.json";
 
 constexpr double kPassingReach = 6.0;   // m: a shape that moves stays this near where it began
 constexpr double kPassingMargin = 0.5;  // m around what comes, goes or moves
@@ -116,11 +116,11 @@ class SceneListener : public ScanListener {
 
 class ExactSceneTest : public testing::TestWithParam<double> {
  protected:
-  ExactSceneTest() : scene_(ExactScene::load(kScene)) {
+  ExactSceneTest() : scene_(ExactScene::load(kFlightScene)) {
     MapperConfig config;
     config.resolution = GetParam();
     listener_ = std::make_unique<SceneListener>(config, scene_);
-    rosbag::Bag bag(kBag, rosbag::bagmode::Read);
+    rosbag::Bag bag(kFlightBag, rosbag::bagmode::Read);
     NodeConfig node;
     const BagTopics topics = chooseTopics(bag, {}, {}, &node);
     ScanCounters counters;

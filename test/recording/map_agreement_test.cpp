@@ -7,7 +7,7 @@
 namespace fiimap {
 namespace {
 
-constexpr double kResolution = 0.5;  // m
+constexpr double kVoxelSize = 0.5;  // m
 
 /// One point, seen from the middle of voxel 0 along x: OctoMap frees voxels 0 to 3 and, after as
 /// many looks as needed, occupies voxel 4.
@@ -21,7 +21,7 @@ bench::Frame lookAt(const Eigen::Vector3f& point) {
 
 MapperConfig config() {
   MapperConfig config;
-  config.resolution = kResolution;
+  config.resolution = kVoxelSize;
   config.p_hit = 0.9;  // one look is enough
   return config;
 }
@@ -40,7 +40,7 @@ class MapAgreementTest : public testing::Test {
   }
   MapAgreement compare() {
     Snapshot::Info info;
-    info.resolution = kResolution;
+    info.resolution = kVoxelSize;
     info.window = grid_.window();
     return compareWithOctomap(Snapshot(&grid_, info), theirs_);
   }

@@ -21,14 +21,14 @@ constexpr double kRadius = 0.2;      // m
 constexpr double kMaxRange = 8.0;    // m
 
 /// A wall whose near face is at x = 4.01, and a box at (2, 0, 1) that is there from t = 1 s to 2 s.
-constexpr char kScene[] = R"({"t0": 0.0, "primitives": [
+constexpr char kWallAndBox[] = R"({"t0": 0.0, "primitives": [
   {"type": "box", "center": [4.51, 0, 1], "size": [1, 20, 20]},
   {"type": "box", "center": [2, 0, 1], "size": [1, 1, 1], "t_on": 1.0, "t_off": 2.0}]})";
 
 class TruthLayersTest : public testing::Test {
  protected:
   TruthLayersTest() : grid_({64, 80, 32}) {
-    const TemporaryFile file(kScene);
+    const TemporaryFile file(kWallAndBox);
     scene_ = ExactScene::load(file.path());
     ChangeSet changes;
     grid_.moveTo({0, -40, 0}, &changes);

@@ -20,7 +20,7 @@ constexpr double kTolerance = 1e-9;
 const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX();
 
 /// A wall whose near face is at x = 4, and a ball that stands at (2, 3, 1) from t = 1 s to 2 s.
-constexpr char kScene[] = R"({"t0": 0.0, "primitives": [
+constexpr char kWallAndBall[] = R"({"t0": 0.0, "primitives": [
   {"type": "box", "center": [4.5, 0, 1], "size": [1, 20, 20]},
   {"type": "sphere", "center": [2, 3, 1], "radius": 0.5, "t_on": 1.0, "t_off": 2.0}]})";
 
@@ -66,7 +66,7 @@ TEST(ExactSceneRayTest, EntersACylinderThroughItsSideOrACap) {
 }
 
 TEST(ExactSceneRayTest, MeetsTheNearestThatIsThere) {
-  const ExactScene scene = sceneFrom(kScene);
+  const ExactScene scene = sceneFrom(kWallAndBall);
   const Eigen::Vector3d start(0.0, 3.0, 1.0);
   EXPECT_NEAR(scene.firstHit(start, kForward, 0.0).distance, 4.0, kTolerance);
   EXPECT_NEAR(scene.firstHit(start, kForward, 1.5).distance, 1.5, kTolerance);
@@ -74,7 +74,7 @@ TEST(ExactSceneRayTest, MeetsTheNearestThatIsThere) {
 }
 
 TEST(ExactSceneTimeTest, RemembersOnlyWhatPassedUpToATime) {
-  const ExactScene scene = sceneFrom(kScene);
+  const ExactScene scene = sceneFrom(kWallAndBall);
   const Eigen::Vector3d middle(2.0, 3.0, 1.0);
   EXPECT_TRUE(std::isinf(scene.distanceToPassing(middle, 0.5)));
   EXPECT_NEAR(scene.distanceToPassing(middle, 1.5), -0.5, kTolerance);
@@ -83,7 +83,7 @@ TEST(ExactSceneTimeTest, RemembersOnlyWhatPassedUpToATime) {
 
 class TruthTest : public testing::Test {
  protected:
-  TruthTest() : scene_(sceneFrom(kScene)), surface_(scene_, 8.0), grid_({64, 64, 32}) {
+  TruthTest() : scene_(sceneFrom(kWallAndBall)), surface_(scene_, 8.0), grid_({64, 64, 32}) {
     grid_.moveTo({0, -32, 0}, &changes_);
   }
 

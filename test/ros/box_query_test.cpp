@@ -10,7 +10,7 @@
 namespace fiimap {
 namespace {
 
-constexpr double kResolution = 0.5;
+constexpr double kBoxResolution = 0.5;
 constexpr int kInflatedFactor = 4;
 
 class BoxQueryTest : public testing::Test {
@@ -20,7 +20,7 @@ class BoxQueryTest : public testing::Test {
   Snapshot snapshot() {
     Snapshot::Info info;
     info.stamp_ns = 1600000000123456789;
-    info.resolution = kResolution;
+    info.resolution = kBoxResolution;
     return Snapshot(&grid_, info);
   }
   static GetBox::Request request(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
@@ -61,10 +61,10 @@ TEST_F(BoxQueryTest, TellsBothLayersOfEveryVoxel) {
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_EQ(response.header.frame_id, "map");
   EXPECT_EQ(response.header.stamp.toNSec(), 1600000000123456789u);
-  EXPECT_EQ(response.resolution, kResolution);
-  EXPECT_EQ(response.origin.x, box.min.x() * kResolution);
-  EXPECT_EQ(response.origin.y, box.min.y() * kResolution);
-  EXPECT_EQ(response.origin.z, box.min.z() * kResolution);
+  EXPECT_EQ(response.resolution, kBoxResolution);
+  EXPECT_EQ(response.origin.x, box.min.x() * kBoxResolution);
+  EXPECT_EQ(response.origin.y, box.min.y() * kBoxResolution);
+  EXPECT_EQ(response.origin.z, box.min.z() * kBoxResolution);
   ASSERT_EQ((VoxelIndex(response.size_x, response.size_y, response.size_z)), box.size());
   ASSERT_EQ(response.voxels.size(), static_cast<std::size_t>(box.volume()));
   test::forEachVoxel(box, [&](const VoxelIndex& v) {

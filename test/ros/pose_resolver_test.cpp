@@ -11,7 +11,7 @@ namespace {
 
 using State = ResolvedPose::State;
 
-constexpr double kTolerance = 1e-6;
+constexpr double kPoseTolerance = 1e-6;
 const double kQuarterTurn = std::acos(0.0);
 
 nav_msgs::Odometry odometryAt(double seconds, double x, double yaw = 0.0) {
@@ -53,9 +53,9 @@ NodeConfig parameterExtrinsics() {
 void expectPose(const ResolvedPose& pose, const Eigen::Vector3d& sensor_W,
                 const Eigen::Vector3d& vehicle_W) {
   ASSERT_EQ(pose.state, State::kFound) << pose.why.text();
-  EXPECT_TRUE(pose.T_W_S.translation().isApprox(sensor_W, kTolerance))
+  EXPECT_TRUE(pose.T_W_S.translation().isApprox(sensor_W, kPoseTolerance))
       << pose.T_W_S.translation().transpose();
-  EXPECT_TRUE(pose.T_W_B.translation().isApprox(vehicle_W, kTolerance))
+  EXPECT_TRUE(pose.T_W_B.translation().isApprox(vehicle_W, kPoseTolerance))
       << pose.T_W_B.translation().transpose();
 }
 

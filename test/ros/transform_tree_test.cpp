@@ -9,9 +9,9 @@
 namespace fiimap {
 namespace {
 
-constexpr double kHistory = 5.0;
-constexpr double kMaxGap = 0.1;
-constexpr double kTolerance = 1e-6;
+constexpr double kTreeHistory = 5.0;
+constexpr double kTreeMaxGap = 0.1;
+constexpr double kTreeTolerance = 1e-6;
 
 class TransformTreeTest : public testing::Test {
  protected:
@@ -25,10 +25,10 @@ class TransformTreeTest : public testing::Test {
   }
   TransformAtStamp lookup(double seconds, const std::string& target = "world",
                           const std::string& source = "camera") const {
-    return tree_.at(target, source, at(seconds), kMaxGap);
+    return tree_.at(target, source, at(seconds), kTreeMaxGap);
   }
 
-  TransformTree tree_{kHistory};
+  TransformTree tree_{kTreeHistory};
 };
 
 TEST_F(TransformTreeTest, AnyFrameIsAtItself) {
@@ -41,8 +41,8 @@ TEST_F(TransformTreeTest, ChainsStaticAndMovingLinks) {
   addMoving(0.05, 2.0);
   const TransformAtStamp found = lookup(0.02);
   ASSERT_EQ(found.lookup, PoseLookup::kFound) << found.why;
-  EXPECT_NEAR(found.T_target_source.translation().x(), 1.9, kTolerance);
-  EXPECT_NEAR(found.gap, 0.05, kTolerance);
+  EXPECT_NEAR(found.T_target_source.translation().x(), 1.9, kTreeTolerance);
+  EXPECT_NEAR(found.gap, 0.05, kTreeTolerance);
 }
 
 TEST_F(TransformTreeTest, TellsWaitingFromTooLate) {
@@ -61,7 +61,7 @@ TEST_F(TransformTreeTest, RefusesToInterpolateOverAGap) {
   addMoving(0.2, 2.0);
   const TransformAtStamp found = lookup(0.1);
   EXPECT_EQ(found.lookup, PoseLookup::kGap);
-  EXPECT_NEAR(found.gap, 0.2, kTolerance);
+  EXPECT_NEAR(found.gap, 0.2, kTreeTolerance);
 }
 
 TEST_F(TransformTreeTest, AFixedLinkThatIsRepeatedSeldomIsNoGap) {
@@ -93,7 +93,7 @@ TEST_F(TransformTreeTest, LeavesOutBadTransforms) {
   addMoving(0.03, 1.0, "world", "");
   addMoving(0.03, 1.0, "body", "body");
   addMoving(0.04, 5.0);
-  EXPECT_NEAR(lookup(0.02).T_target_source.translation().x(), 3.5, kTolerance);
+  EXPECT_NEAR(lookup(0.02).T_target_source.translation().x(), 3.5, kTreeTolerance);
 }
 
 TEST_F(TransformTreeTest, CountsWhatItLeavesOutButNotRepetitions) {
@@ -114,8 +114,8 @@ TEST_F(TransformTreeTest, OneWrongStampCostsOneTransform) {
       if (i == 5) addMoving(wrong, 7.0);
     }
     ASSERT_EQ(lookup(0.47).lookup, PoseLookup::kFound) << lookup(0.47).why;
-    EXPECT_NEAR(lookup(0.47).T_target_source.translation().x(), 0.97, kTolerance);
-    EXPECT_NEAR(lookup(0.27).T_target_source.translation().x(), 0.77, kTolerance);
+    EXPECT_NEAR(lookup(0.47).T_target_source.translation().x(), 0.97, kTreeTolerance);
+    EXPECT_NEAR(lookup(0.27).T_target_source.translation().x(), 0.77, kTreeTolerance);
   }
   EXPECT_EQ(tree_.refused(), 2u);
 }
@@ -158,7 +158,7 @@ TEST_F(TransformTreeTest, ClearKeepsStaticLinks) {
   EXPECT_EQ(lookup(100.0).lookup, PoseLookup::kNotYet);
   addMoving(0.0, 2.0);
   ASSERT_EQ(lookup(0.0).lookup, PoseLookup::kFound) << lookup(0.0).why;
-  EXPECT_NEAR(lookup(0.0).T_target_source.translation().x(), 2.5, kTolerance);
+  EXPECT_NEAR(lookup(0.0).T_target_source.translation().x(), 2.5, kTreeTolerance);
 }
 
 }  // namespace

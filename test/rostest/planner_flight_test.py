@@ -28,6 +28,7 @@ PLANNER = {'map': '/map', 'max_speed': 1.5, 'map_timeout': 5.0, 'odometry_timeou
 
 START = (0.0, 0.0, 1.2)
 GOAL = (14.0, 0.0, 1.2)
+HALF_WAY = (8.0, 0.0, 1.2)  # far enough to be disturbed, and to fly on between columns
 COLUMNS = [Box((x, y, 0.0), (x + 0.5, y + 0.5, 3.0)) for x, y in
            [(3.0, -0.3), (3.0, 1.6), (3.2, -2.4), (6.0, -1.4), (6.1, 0.7), (9.0, -0.2), (9.3, 1.7),
             (9.1, -2.0), (11.5, 0.8), (11.4, -1.3)]]
@@ -80,7 +81,7 @@ class PlannerFlightTest(ManagerTest):
 
     def test_keeps_flying_while_the_map_is_reset(self):
         self.take_off()
-        self.vehicle.fly_to(*GOAL)
+        self.vehicle.fly_to(*HALF_WAY)
         self.wait_for_flight()
         before = len(self.vehicle.statuses)
         self.assertTrue(rospy.ServiceProxy('/map/reset', Trigger)().success)
@@ -92,7 +93,7 @@ class PlannerFlightTest(ManagerTest):
 
     def test_brakes_when_the_map_is_unloaded_and_goes_on_with_a_new_one(self):
         self.take_off()
-        self.vehicle.fly_to(*GOAL)
+        self.vehicle.fly_to(*HALF_WAY)
         self.wait_for_flight()
         before = len(self.vehicle.statuses)
         self.unload(self.map_loader)
@@ -102,7 +103,7 @@ class PlannerFlightTest(ManagerTest):
                    if status.state == PlannerStatus.BRAKING]
         self.assertTrue(braking)
         self.assertIn('/map is gone', braking[0].reason)
-        self.assertGreater(self.vehicle.distance_to(*GOAL), 3.0)
+        self.assertGreater(self.vehicle.distance_to(*HALF_WAY), 3.0)
         self.assertIn('brakes: the mapping nodelet /map is gone', self.manager.output())
         self.load_map(MAP)
         self.wait_for_state(PlannerStatus.GOAL_REACHED)
@@ -110,7 +111,7 @@ class PlannerFlightTest(ManagerTest):
 
     def test_brakes_without_odometry_and_says_why(self):
         self.take_off()
-        self.vehicle.fly_to(*GOAL)
+        self.vehicle.fly_to(*HALF_WAY)
         self.wait_for_flight()
         self.vehicle.sends_odometry = False
         self.wait_for_state(PlannerStatus.WAITING)

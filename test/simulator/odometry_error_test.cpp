@@ -7,11 +7,12 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr double kStep = 1.0 / 300.0;  // s
+constexpr double kOdometryStep = 1.0 / 300.0;  // s
 
 TEST(OdometryErrorTest, IsNothingByDefault) {
   OdometryError error({}, 1);
-  for (int i = 1; i < 10000; ++i) error.advance(i * kStep, kStep, Eigen::Vector3d(i, 0, 0));
+  for (int i = 1; i < 10000; ++i)
+    error.advance(i * kOdometryStep, kOdometryStep, Eigen::Vector3d(i, 0, 0));
   EXPECT_EQ(error.T_O_W().matrix(), Eigen::Matrix4d::Identity());
 }
 
@@ -25,7 +26,8 @@ TEST(OdometryErrorTest, DriftsLikeARandomWalk) {
   double shift = 0.0, turn = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     OdometryError error(config, seed);
-    for (int i = 1; i <= kSeconds / kStep; ++i) error.advance(i * kStep, kStep, position_W);
+    for (int i = 1; i <= kSeconds / kOdometryStep; ++i)
+      error.advance(i * kOdometryStep, kOdometryStep, position_W);
     // The yaw drifts around the vehicle, so it does not shift it.
     shift += (error.T_O_W() * position_W - position_W).squaredNorm() / 3.0;
     const Eigen::Vector3d forward = error.T_O_W().linear().col(0);
@@ -42,14 +44,14 @@ TEST(OdometryErrorTest, JumpsByItsLengthAtItsTimes) {
   config.odometry_jump_period = 2.0;
   OdometryError error(config, 3);
   int jumps = 0;
-  for (int i = 1; i <= 9.0 / kStep; ++i) {
+  for (int i = 1; i <= 9.0 / kOdometryStep; ++i) {
     const Eigen::Vector3d before = error.T_O_W().translation();
-    error.advance(i * kStep, kStep, Eigen::Vector3d(5, 5, 5));
+    error.advance(i * kOdometryStep, kOdometryStep, Eigen::Vector3d(5, 5, 5));
     const double shift = (error.T_O_W().translation() - before).norm();
     if (shift == 0.0) continue;
     ++jumps;
     EXPECT_NEAR(shift, 0.5, 1e-9);
-    EXPECT_NEAR(std::remainder(i * kStep, 2.0), 0.0, 2 * kStep);
+    EXPECT_NEAR(std::remainder(i * kOdometryStep, 2.0), 0.0, 2 * kOdometryStep);
   }
   EXPECT_EQ(jumps, 4);
 }

@@ -7,16 +7,18 @@
 
 namespace {
 
-constexpr int kQueue = 10;
+constexpr int kRelayQueue = 10;
 
 }  // namespace
 
 WorldCloudRelay::WorldCloudRelay(ros::NodeHandle node, const Topics& topics)
-    : cloud_publisher_(node.advertise<sensor_msgs::PointCloud2>(topics.relative_cloud, kQueue)),
-      pose_publisher_(node.advertise<geometry_msgs::PoseStamped>(topics.relative_pose, kQueue)) {
-  odom_subscriber_ = node.subscribe(topics.odom, kQueue, &WorldCloudRelay::onOdometry, this);
-  pose_subscriber_ = node.subscribe(topics.pose, kQueue, &WorldCloudRelay::onPose, this);
-  cloud_subscriber_ = node.subscribe(topics.cloud, kQueue, &WorldCloudRelay::onCloud, this);
+    : cloud_publisher_(
+          node.advertise<sensor_msgs::PointCloud2>(topics.relative_cloud, kRelayQueue)),
+      pose_publisher_(
+          node.advertise<geometry_msgs::PoseStamped>(topics.relative_pose, kRelayQueue)) {
+  odom_subscriber_ = node.subscribe(topics.odom, kRelayQueue, &WorldCloudRelay::onOdometry, this);
+  pose_subscriber_ = node.subscribe(topics.pose, kRelayQueue, &WorldCloudRelay::onPose, this);
+  cloud_subscriber_ = node.subscribe(topics.cloud, kRelayQueue, &WorldCloudRelay::onCloud, this);
 }
 
 WorldCloudRelay::~WorldCloudRelay() {
@@ -48,10 +50,12 @@ void WorldCloudRelay::onCloud(const sensor_msgs::PointCloud2::ConstPtr& message)
   pose->pose.orientation.w = 1.0;
   const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(*message);
   const geometry_msgs::Point& p = pose->pose.position;
-  for (sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x"); xyz != xyz.end(); ++xyz) {
-    xyz[0] -= static_cast<float>(p.x);
-    xyz[1] -= static_cast<float>(p.y);
-    xyz[2] -= static_cast<float>(p.z);
+  if (!cloud->data.empty()) {  // the iterator asks for the first byte
+    for (sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x"); xyz != xyz.end(); ++xyz) {
+      xyz[0] -= static_cast<float>(p.x);
+      xyz[1] -= static_cast<float>(p.y);
+      xyz[2] -= static_cast<float>(p.z);
+    }
   }
   pose_publisher_.publish(geometry_msgs::PoseStamped::ConstPtr(pose));
   cloud_publisher_.publish(sensor_msgs::PointCloud2::ConstPtr(cloud));

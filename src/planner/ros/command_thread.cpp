@@ -9,14 +9,15 @@
 namespace fiimap {
 namespace {
 
-constexpr int kQueue = 1;
+constexpr int kCommandQueue = 1;
 constexpr double kMaxPeriod = 0.1;  // s; after a longer pause the heading does not catch up
 
 }  // namespace
 
 CommandThread::CommandThread(ros::NodeHandle node, double rate, double max_yaw_rate)
     : heading_(max_yaw_rate),
-      publisher_(node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command", kQueue)),
+      publisher_(
+          node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command", kCommandQueue)),
       thread_(1.0 / rate, [this] { publish(); }) {}
 
 CommandThread::~CommandThread() {

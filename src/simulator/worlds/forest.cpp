@@ -7,9 +7,9 @@
 namespace fiimap::sim {
 namespace {
 
-constexpr double kMargin = 10.0;       // m of forest behind the start and beyond the goal
-constexpr double kClearRadius = 3.0;   // m around start and goal
-constexpr double kFlightHeight = 1.5;  // m
+constexpr double kForestMargin = 10.0;       // m of forest behind the start and beyond the goal
+constexpr double kClearRadius = 3.0;         // m around start and goal
+constexpr double kForestFlightHeight = 1.5;  // m
 constexpr double kGroundThickness = 0.2;
 constexpr double kBushesPerTree = 0.3;
 constexpr int kTrunkSides = 12;
@@ -27,14 +27,14 @@ class ForestMaker {
       : config_(config), random_(static_cast<std::uint64_t>(config.seed)) {}
 
   World make() {
-    world_.start_W = {0.0, 0.0, kFlightHeight};
-    world_.goal_W = {config_.length, 0.0, kFlightHeight};
-    world_.still.addBoxBetween({-kMargin, -half_width(), -kGroundThickness},
-                               {config_.length + kMargin, half_width(), 0.0});
+    world_.start_W = {0.0, 0.0, kForestFlightHeight};
+    world_.goal_W = {config_.length, 0.0, kForestFlightHeight};
+    world_.still.addBoxBetween({-kForestMargin, -half_width(), -kGroundThickness},
+                               {config_.length + kForestMargin, half_width(), 0.0});
     for (const Eigen::Vector3d& place_W : {world_.start_W, world_.goal_W}) {
       stands_.push_back({place_W.head<2>(), kClearRadius});
     }
-    const double area = config_.width * (config_.length + 2.0 * kMargin);
+    const double area = config_.width * (config_.length + 2.0 * kForestMargin);
     const auto trees = static_cast<int>(std::lround(config_.tree_density * area));
     for (int i = 0; i < trees; ++i) addTree();
     for (int i = 0; i < kBushesPerTree * trees; ++i) addBush();
@@ -48,7 +48,7 @@ class ForestMaker {
   bool findStand(double radius, Eigen::Vector2d* center_W) {
     constexpr int kTries = 20;
     for (int i = 0; i < kTries; ++i) {
-      *center_W = {random_.uniform(-kMargin, config_.length + kMargin),
+      *center_W = {random_.uniform(-kForestMargin, config_.length + kForestMargin),
                    random_.uniform(-half_width(), half_width())};
       bool is_free = true;
       for (const Stand& stand : stands_) {

@@ -8,18 +8,19 @@ namespace {
 
 // A hall of 16 x 12 x 4 m, x and y from its middle.
 constexpr double kHalfLength = 8.0;
-constexpr double kHalfWidth = 6.0;
-constexpr double kHeight = 4.0;
-constexpr double kWall = 0.2;
+constexpr double kRoomHalfWidth = 6.0;
+constexpr double kRoomHeight = 4.0;
+constexpr double kRoomWall = 0.2;
 constexpr int kSides = 20;
 
 void addHall(Mesh* mesh) {
-  const double x = kHalfLength, y = kHalfWidth;
-  mesh->addBoxBetween({-x - kWall, -y - kWall, -kWall}, {x + kWall, y + kWall, 0.0});
-  mesh->addBoxBetween({-x - kWall, -y - kWall, 0.0}, {-x, y + kWall, kHeight});
-  mesh->addBoxBetween({x, -y - kWall, 0.0}, {x + kWall, y + kWall, kHeight});
-  mesh->addBoxBetween({-x, -y - kWall, 0.0}, {x, -y, kHeight});
-  mesh->addBoxBetween({-x, y, 0.0}, {x, y + kWall, kHeight});
+  const double x = kHalfLength, y = kRoomHalfWidth;
+  mesh->addBoxBetween({-x - kRoomWall, -y - kRoomWall, -kRoomWall},
+                      {x + kRoomWall, y + kRoomWall, 0.0});
+  mesh->addBoxBetween({-x - kRoomWall, -y - kRoomWall, 0.0}, {-x, y + kRoomWall, kRoomHeight});
+  mesh->addBoxBetween({x, -y - kRoomWall, 0.0}, {x + kRoomWall, y + kRoomWall, kRoomHeight});
+  mesh->addBoxBetween({-x, -y - kRoomWall, 0.0}, {x, -y, kRoomHeight});
+  mesh->addBoxBetween({-x, y, 0.0}, {x, y + kRoomWall, kRoomHeight});
 }
 
 /// Four boards on uprights, half full of boxes.
