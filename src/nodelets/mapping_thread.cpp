@@ -128,7 +128,7 @@ void MappingThread::step() {
     task();
   }
   synchronizer_.expire(now);
-  if (const auto scan = ready_.pop()) integrate(*scan);
+  if (!ready_.empty()) integrate(ready_.pop());
   publishCounters();
 }
 
@@ -163,8 +163,8 @@ void MappingThread::onScan(const SynchronizedScan& scan) {
 }
 
 void MappingThread::onTimeJump(const std::string& what) {
-  while (const auto scan = ready_.pop()) {
-    drop({DropReason::kTimeJump, what + " while the scan waited for the map"}, scan->sensor);
+  while (!ready_.empty()) {
+    drop({DropReason::kTimeJump, what + " while the scan waited for the map"}, ready_.pop().sensor);
   }
   forget(what);
 }

@@ -14,7 +14,7 @@ bool ReadyQueue::push(SynchronizedScan scan) {
   return true;
 }
 
-std::optional<SynchronizedScan> ReadyQueue::pop() {
+SynchronizedScan ReadyQueue::pop() {
   const auto rank = [this](const Line& line) {
     return overloaded_ ? line.last_turn : line.scans.front().pose.stamp_ns;
   };
@@ -23,7 +23,6 @@ std::optional<SynchronizedScan> ReadyQueue::pop() {
     if (line.scans.empty()) continue;
     if (next == nullptr || rank(line) < rank(*next)) next = &line;
   }
-  if (next == nullptr) return std::nullopt;
   SynchronizedScan scan = std::move(next->scans.front());
   next->scans.pop_front();
   next->last_turn = ++turns_;

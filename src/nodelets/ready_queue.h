@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <vector>
 
 #include "fiimap/ros/scan_listener.h"
@@ -21,8 +20,8 @@ class ReadyQueue {
 
   /// \return whether the oldest scan of the same sensor gave way to it.
   bool push(SynchronizedScan scan);
-  /// The scan whose turn it is; none when the queue is empty.
-  std::optional<SynchronizedScan> pop();
+  /// The scan whose turn it is; there must be one.
+  SynchronizedScan pop();
 
   bool empty() const;
   /// Scans of a sensor.

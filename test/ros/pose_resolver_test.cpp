@@ -173,7 +173,7 @@ TEST(PoseResolverTest, KnowsWhetherTheSensorIsRotatedOnTheBody) {
   Resolver straight{NodeConfig()}, turned{NodeConfig()};
   addCamera(&straight);
   addCamera(&turned, kQuarterTurn);
-  for (PoseResolver* resolver : {&straight, &turned}) {
+  for (Resolver* resolver : {&straight, &turned}) {
     resolver->add(odometryAt(0.0, 0.0, kQuarterTurn));
     EXPECT_EQ(resolver->at("camera", at(0.0)).sensor_axes_like_body, resolver == &straight);
   }

@@ -18,8 +18,9 @@ SynchronizedScan scanOf(std::size_t sensor, std::int64_t number = 0) {
 /// Sensor and number of all scans in the queue, in the order in which they go.
 std::string emptied(ReadyQueue* queue) {
   std::string text;
-  while (const auto scan = queue->pop()) {
-    text += std::to_string(scan->sensor) + ':' + std::to_string(scan->pose.stamp_ns) + ' ';
+  while (!queue->empty()) {
+    const SynchronizedScan scan = queue->pop();
+    text += std::to_string(scan.sensor) + ':' + std::to_string(scan.pose.stamp_ns) + ' ';
   }
   return text;
 }
@@ -63,7 +64,7 @@ std::vector<std::pair<int, int>> share(const std::vector<int>& rates, int capaci
       ++shares[sensor].second;
     }
     if (tick % (kTicks / capacity) != 0) continue;
-    if (const auto scan = queue.pop()) ++shares[scan->sensor].first;
+    if (!queue.empty()) ++shares[queue.pop().sensor].first;
   }
   return shares;
 }
