@@ -194,7 +194,7 @@ TEST_F(SeveralSensorsTest, ALoopingBagStartsAnewOnce) {
   addBothInfos();
   for (int round = 0; round < 3; ++round) {
     diary_ = Diary();
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 200; ++i) {
       const double now = 10.0 + 0.01 * i;
       addPose(now);
       if (i % 3 == 0) addScan(kFront, now - 0.005);
@@ -202,7 +202,7 @@ TEST_F(SeveralSensorsTest, ALoopingBagStartsAnewOnce) {
       if (i % 10 == 5) addScan(kLidar, now - 0.02);
     }
     EXPECT_EQ(std::count(diary_.events.begin(), diary_.events.end(), "jump"), round > 0) << round;
-    EXPECT_GT(diary_.scans.size(), 70u);
+    EXPECT_GT(diary_.scans.size(), 145u);
     for (const std::size_t sensor : {kFront, kLeft, kLidar}) {
       EXPECT_LE(synchronizer_->waiting(sensor), 1u);
     }
