@@ -248,7 +248,7 @@ TEST(MapperTest, ImagesOfSeveralSensorsToo) {
   config.border_margin = 0;
   config.sensors.assign(2, config);
   config.sensors[1].depth_scale = 0.0005;
-  const std::vector<std::uint16_t> pixels(8 * 8, 2000);
+  const std::vector<std::uint16_t> pixels(8 * 8, 1000);  // upwards, 1 m or 0.5 m
   const DepthImage image = {pixels.data(), DepthImage::Format::kUint16, 8, 8, 16};
   const PinholeIntrinsics intrinsics = {8.0, 8.0, 4.0, 4.0};
   for (std::size_t sensor = 0; sensor < config.sensors.size(); ++sensor) {
