@@ -10,8 +10,8 @@
 namespace fiimap {
 
 /// Scans that wait for the map, of each sensor the newest few. They go in the order of their stamps
-/// as long as the map keeps up; when scans have to give way, sensors take turns until none waits any
-/// more: a sensor of few scans gets each of its turns, however many the others send. Not
+/// as long as the map keeps up; when scans have to give way, sensors take turns until none waits
+/// any more: a sensor of few scans gets each of its turns, however many the others send. Not
 /// thread-safe.
 class ReadyQueue {
  public:

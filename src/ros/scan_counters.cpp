@@ -32,9 +32,8 @@ std::uint64_t ScanCounters::dropped() const {
 
 bool ScanCounters::conserved() const {
   const auto add = [](std::uint64_t sum, const ScanCounters& own) { return sum + own.received; };
-  const bool complete =
-      sensors.empty() ||
-      std::accumulate(sensors.begin(), sensors.end(), std::uint64_t{0}, add) == received;
+  const bool complete = sensors.empty() || std::accumulate(sensors.begin(), sensors.end(),
+                                                           std::uint64_t{0}, add) == received;
   return complete && received == integrated + dropped() + waiting &&
          std::all_of(sensors.begin(), sensors.end(),
                      [](const ScanCounters& own) { return own.conserved(); });

@@ -1,6 +1,6 @@
 // Three depth cameras and a LiDAR into one map, at their rate and at ten times of it, beside a
 // reader at full speed and one that holds on to old snapshots. FIIMAP_LOAD_SECONDS: how long each,
-// for figures; see docs/load.md.
+// see docs/load.md.
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kCameras = 3;
+constexpr std::size_t kCameras = 3, kLidar = kCameras;   // number of the LiDAR: after the cameras
 constexpr double kCameraRate = 30.0, kLidarRate = 10.0;  // Hz
 constexpr double kSpeed = 1.0, kCircle = 3.0;            // m/s, m
 constexpr double kMemoryGrowth = 64e6;                   // bytes, noise of the allocator
@@ -55,8 +55,6 @@ double percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
-
-constexpr std::size_t kLidar = kCameras;  // number of the sensor; the cameras come before
 
 NodeConfig nodeConfig() {
   NodeConfig config;
@@ -152,18 +150,16 @@ class LoadedMap : private MapObserver {
   /// The LiDAR sends less than each camera: it gets as many turns, or all that it needs.
   void expectFair() const {
     std::uint64_t fewest = sensors_[kLidar].sent;
-    for (std::size_t i = 0; i < kCameras; ++i) {
-      fewest = std::min(fewest, countersOf(i).integrated);
-    }
+    for (std::size_t i = 0; i < kLidar; ++i) fewest = std::min(fewest, countersOf(i).integrated);
     EXPECT_GE(2 * countersOf(kLidar).integrated, fewest);
   }
   void print() const {
     for (std::size_t i = 0; i <= kLidar; ++i) {
       const ScanCounters counters = countersOf(i);
-      const std::vector<double>& ages = sensors_[i].ages_ms;
       std::printf("  %-8s sent %5lu integrated %5lu dropped %5lu, age ms: median %.1f max %.1f\n",
                   nodeConfig().sensors[i].name.c_str(), sensors_[i].sent, counters.integrated,
-                  counters.dropped(), percentile(ages, 0.5), percentile(ages, 1.0));
+                  counters.dropped(), percentile(sensors_[i].ages_ms, 0.5),
+                  percentile(sensors_[i].ages_ms, 1.0));
     }
   }
 
@@ -203,9 +199,8 @@ class LoadedMap : private MapObserver {
 
   void onUpdate(const MapUpdate& update) override {
     const auto now = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
-    const bool lidar = update.sensor == "lidar";
-    const std::size_t number =
-        lidar ? kLidar : static_cast<std::size_t>(update.sensor.back() - '0');
+    const char last = update.sensor.back();  // the number of a camera
+    const auto number = static_cast<std::size_t>(last >= '0' && last <= '9' ? last - '0' : kLidar);
     sensors_[number].ages_ms.push_back(static_cast<double>(now - update.pose.stamp_ns) * 1e-6);
   }
   void onReset(const std::string& why) override { ADD_FAILURE() << why; }

@@ -34,7 +34,7 @@ const char* remedyFor(DropReason reason);
 /// One dropped scan.
 struct Drop {
   DropReason reason = DropReason::kZeroStamp;
-  std::string detail;  ///< what was found, with the values
+  std::string detail;    ///< what was found, with the values
   std::string sensor{};  ///< name of the scan's; empty where there is one only
 
   /// "name: detail; remedy", with the sensor before the detail where it has a name.
