@@ -199,8 +199,8 @@ class LoadedMap : private MapObserver {
 
   void onUpdate(const MapUpdate& update) override {
     const auto now = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
-    const char last = update.sensor.back();  // the number of a camera
-    const auto number = static_cast<std::size_t>(last >= '0' && last <= '9' ? last - '0' : kLidar);
+    const std::string after_line = update.sensor.substr(update.sensor.find('_') + 1);
+    const std::size_t number = update.sensor == "lidar" ? kLidar : std::stoul(after_line);
     sensors_[number].ages_ms.push_back(static_cast<double>(now - update.pose.stamp_ns) * 1e-6);
   }
   void onReset(const std::string& why) override { ADD_FAILURE() << why; }
