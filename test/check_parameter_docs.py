@@ -109,12 +109,20 @@ def compare_all(where, entries, parameters):
 
 
 def compare_differences(path, parameters):
-    """Differences of a file that holds only what differs from the defaults."""
-    for name, value, _ in yaml_entries(path):
-        if name not in parameters:
-            yield f'{path.name}: {name} is not a parameter'
-        elif canonical(value) == canonical(parameters[name].default):
-            yield f'{path.name}: {name} is {value}, which is the default'
+    """Differences of a file that holds only what differs from the defaults.
+
+    What is below a sensor's name differs from what the file says for all, or from the default."""
+    values = yaml.safe_load(path.read_text())
+    sensors = values.get('sensors', [])
+    for name, value in values.items():
+        for key, own in value.items() if name in sensors else [(name, value)]:
+            where = key if key is name else f'{name}/{key}'
+            of_all = values.get(key) if key is not name else None
+            if key not in parameters:
+                yield f'{path.name}: {where} is not a parameter'
+            elif canonical(own) == canonical(
+                    parameters[key].default if of_all is None else of_all):
+                yield f'{path.name}: {where} is {own}, which is what it is without'
 
 
 def main():

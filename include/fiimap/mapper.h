@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -49,7 +51,7 @@ struct ScanReport {
   std::size_t changeScore() const { return raise + lower; }
 };
 
-/// The map: scans in, snapshots out.
+/// The map: scans of one sensor or several in, snapshots out.
 /// Not thread-safe: one thread owns it; other threads read the snapshots.
 class Mapper {
  public:
@@ -57,11 +59,13 @@ class Mapper {
   explicit Mapper(const MapperConfig& config);
 
   /// Integrates one scan.
+  /// \param sensor that it is from: index into the configuration's `sensors`.
   /// \throws std::invalid_argument, with the map unchanged, when the pose is not finite or not in
-  /// the range of voxel indices, or the image or its intrinsics are not valid.
+  /// the range of voxel indices, or the image or its intrinsics are not valid; std::out_of_range
+  /// for a sensor that there is not.
   ScanReport integrate(const DepthImage& image, const PinholeIntrinsics& intrinsics,
-                       const ScanPose& pose);
-  ScanReport integrate(const PointScan& points, const ScanPose& pose);
+                       const ScanPose& pose, std::size_t sensor = 0);
+  ScanReport integrate(const PointScan& points, const ScanPose& pose, std::size_t sensor = 0);
 
   /// An immutable view of the map as it is now, with the stamp of the newest scan.
   std::shared_ptr<const Snapshot> snapshot();
@@ -80,6 +84,11 @@ class Mapper {
   std::size_t memoryBytes() const;
 
  private:
+  struct SensorProjectors {
+    DepthProjector depth;
+    PointProjector points;
+  };
+
   ScanReport integrateScan(const ScanPose& pose, ScanReport report);
   void follow(const VoxelIndex& vehicle);
 
@@ -87,8 +96,7 @@ class Mapper {
   VoxelLattice lattice_;
   LogOdds log_odds_;
   SlidingGrid grid_;
-  DepthProjector depth_projector_;
-  PointProjector point_projector_;
+  std::vector<SensorProjectors> projectors_;  // by sensor
   RayCaster ray_caster_;
   ScanIntegrator integrator_;
   std::unique_ptr<Inflater> inflater_;

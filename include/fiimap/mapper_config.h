@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "fiimap/structuring_element.h"
@@ -23,10 +27,28 @@ enum class InflationMethod {
   kBatch,        ///< clear and re-dilate everything
 };
 
+/// How the readings of a sensor are understood.
+struct ReadingConfig {
+  double depth_scale = 0.001;
+  double min_depth = 0.3;
+  double max_depth = 8.0;
+  int pixel_step = 2;
+  int border_margin = 2;
+  ReadingPolicy invalid_depth = ReadingPolicy::kIgnore;
+  ReadingPolicy infinite_depth = ReadingPolicy::kFree;
+  ReadingPolicy beyond_max_depth = ReadingPolicy::kFree;
+  double min_ray_length = 0.3;
+  double max_ray_length = 8.0;
+
+  /// \param prefix of the parameters' names in the text.
+  /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+  void validate(const std::string& prefix = "") const;
+};
+
 /// Every setting of the map, in one place with its default. Names are the parameter names of the
 /// nodelet and of fiimap_eval; units, ranges and meanings: mapper_parameters.cpp and
 /// config/default.yaml.
-struct MapperConfig {
+struct MapperConfig : ReadingConfig {
   double resolution = 0.1;
   MapMode map_mode = MapMode::kSliding;
   double map_size_x = 100.0;
@@ -41,17 +63,6 @@ struct MapperConfig {
   double local_update_range_z = 6.0;
   double memory_limit = 0.0;
 
-  double depth_scale = 0.001;
-  double min_depth = 0.3;
-  double max_depth = 8.0;
-  int pixel_step = 2;
-  int border_margin = 2;
-  ReadingPolicy invalid_depth = ReadingPolicy::kIgnore;
-  ReadingPolicy infinite_depth = ReadingPolicy::kFree;
-  ReadingPolicy beyond_max_depth = ReadingPolicy::kFree;
-
-  double min_ray_length = 0.3;
-  double max_ray_length = 8.0;
   double ray_end_cut = 2.25;
   double min_hit_cover = 0.05;
 
@@ -70,11 +81,22 @@ struct MapperConfig {
   double virtual_floor = -0.1;
   double virtual_ceiling = 3.0;
 
+  /// One for each sensor of a map that has several. Empty: one sensor, read as said above.
+  std::vector<ReadingConfig> sensors;
+
   Eigen::Vector3d mapSize() const { return {map_size_x, map_size_y, map_size_z}; }
   Eigen::Vector3d mapCenter() const { return {map_center_x, map_center_y, map_center_z}; }
   Eigen::Vector3d localUpdateRange() const {
     return {local_update_range_x, local_update_range_y, local_update_range_z};
   }
+  std::size_t sensorCount() const { return sensors.empty() ? 1 : sensors.size(); }
+  /// How a sensor's readings are understood.
+  const ReadingConfig& readingOf(std::size_t sensor) const {
+    return sensors.empty() ? *this : sensors.at(sensor);
+  }
+  /// The configuration of a map that has this sensor alone.
+  MapperConfig withOnly(std::size_t sensor) const;
+
   StructuringElement structuringElement() const {
     return {inflation_shape, inflation_radius, resolution};
   }

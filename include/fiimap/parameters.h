@@ -39,6 +39,10 @@ Parameter choiceParameter(const std::string& name, Enum* field,
 /// All parameters of a MapperConfig, bound to `config`, in the order of config/default.yaml.
 std::vector<Parameter> mapperParameters(MapperConfig* config);
 
+/// Those of them that a sensor may have of its own.
+/// \param prefix of their names.
+std::vector<Parameter> readingParameters(ReadingConfig* config, const std::string& prefix = "");
+
 /// Sets every parameter that `values` holds.
 /// \return the names in `values` that no parameter has, so that the caller can warn or refuse.
 /// \throws std::invalid_argument on a value of the wrong type or out of range.

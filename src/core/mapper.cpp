@@ -58,28 +58,31 @@ Mapper::Mapper(const MapperConfig& config)
       lattice_(config.resolution),
       log_odds_(config),
       grid_(lattice_.sizeOf(config.mapSize())),
-      depth_projector_(config),
-      point_projector_(config),
       ray_caster_(lattice_, config.ray_end_cut, config.min_hit_cover),
       integrator_(log_odds_),
-      inflater_(makeInflater(config)) {}
+      inflater_(makeInflater(config)) {
+  for (std::size_t sensor = 0; sensor < config.sensorCount(); ++sensor) {
+    const MapperConfig own = config.withOnly(sensor);
+    projectors_.push_back({DepthProjector(own), PointProjector(own)});
+  }
+}
 
 ScanReport Mapper::integrate(const DepthImage& image, const PinholeIntrinsics& intrinsics,
-                             const ScanPose& pose) {
+                             const ScanPose& pose, std::size_t sensor) {
   requireValid(image, intrinsics);
   requireValid(pose, lattice_);
   Stopwatch stopwatch;
   ScanReport report;
-  report.readings = depth_projector_.project(image, intrinsics, pose.T_W_S, &scan_);
+  report.readings = projectors_.at(sensor).depth.project(image, intrinsics, pose.T_W_S, &scan_);
   report.times_ms.project = stopwatch.lap();
   return integrateScan(pose, report);
 }
 
-ScanReport Mapper::integrate(const PointScan& points, const ScanPose& pose) {
+ScanReport Mapper::integrate(const PointScan& points, const ScanPose& pose, std::size_t sensor) {
   requireValid(pose, lattice_);
   Stopwatch stopwatch;
   ScanReport report;
-  report.readings = point_projector_.project(points, pose.T_W_S, &scan_);
+  report.readings = projectors_.at(sensor).points.project(points, pose.T_W_S, &scan_);
   report.times_ms.project = stopwatch.lap();
   return integrateScan(pose, report);
 }

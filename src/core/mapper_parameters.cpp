@@ -11,7 +11,6 @@ namespace {
 constexpr double kMinResolution = 0.01, kMaxResolution = 10.0;  // m
 constexpr double kMaxMapSize = 10000.0;                         // m
 constexpr double kMaxCenter = 1e7;                              // m
-constexpr double kMinRange = 0.0, kMaxRange = 1000.0;           // m
 constexpr double kMaxRadius = 100.0;                            // m
 constexpr int kMaxReach = 64;                                   // voxels
 constexpr double kMaxWindowVoxels = 1e10;
@@ -44,13 +43,8 @@ Parameter connectivityParameter(int* field) {
           }};
 }
 
-}  // namespace
-
-std::vector<Parameter> mapperParameters(MapperConfig* c) {
-  const auto policy = [](const std::string& name, ReadingPolicy* field,
-                         const std::string& meaning) {
-    return choiceParameter(name, field, {"ignore", "free"}, meaning);
-  };
+/// Those of the window.
+std::vector<Parameter> windowParameters(MapperConfig* c) {
   return {
       numberParameter("resolution", &c->resolution, kMinResolution, kMaxResolution, "m",
                       "edge length of a voxel"),
@@ -80,27 +74,12 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
       numberParameter("memory_limit", &c->memory_limit, 0.0, kMaxMemory, "MB",
                       "a map that may need more when all is seen is refused at start; 0: the "
                       "machine's memory"),
+  };
+}
 
-      numberParameter("depth_scale", &c->depth_scale, 1e-6, 1.0, "m per unit",
-                      "metres per unit of a 16-bit depth image"),
-      numberParameter("min_depth", &c->min_depth, kMinRange, kMaxRange, "m",
-                      "nearer depth readings are ignored"),
-      numberParameter("max_depth", &c->max_depth, kMinRange, kMaxRange, "m",
-                      "farther depth readings are treated as beyond_max_depth says"),
-      integerParameter("pixel_step", &c->pixel_step, 0, 1000, "pixels",
-                       "use every n-th pixel of every n-th row of images and organised clouds; 0: "
-                       "the paper's eq. 5, samples at max_depth one voxel apart (clouds: 1)"),
-      integerParameter("border_margin", &c->border_margin, 0, 10000, "pixels",
-                       "pixels to leave out at each border of a depth image"),
-      policy("invalid_depth", &c->invalid_depth, "what 0 and NaN readings mean for their ray"),
-      policy("infinite_depth", &c->infinite_depth, "what +inf readings mean for their ray"),
-      policy("beyond_max_depth", &c->beyond_max_depth,
-             "what readings beyond max_depth or max_ray_length mean for their ray"),
-
-      numberParameter("min_ray_length", &c->min_ray_length, kMinRange, kMaxRange, "m",
-                      "nearer points are ignored (the vehicle's own body)"),
-      numberParameter("max_ray_length", &c->max_ray_length, kMinRange, kMaxRange, "m",
-                      "rays are cut off at this length; farther points do not mark obstacles"),
+/// Those of the rays that hold for all sensors, and of the voxels.
+std::vector<Parameter> occupancyParameters(MapperConfig* c) {
+  return {
       numberParameter("ray_end_cut", &c->ray_end_cut, 0.0, 100.0, "voxels",
                       "a ray frees voxels up to this far in front of the surface that it met"),
       numberParameter("min_hit_cover", &c->min_hit_cover, 0.0, 1.0, "of a voxel's face",
@@ -116,7 +95,11 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
                       "upper clamp of the probability (eq. 8)"),
       numberParameter("p_occ", &c->p_occ, 0.501, 0.999, "",
                       "a voxel is occupied from this probability on"),
+  };
+}
 
+std::vector<Parameter> inflationParameters(MapperConfig* c) {
+  return {
       numberParameter("inflation_radius", &c->inflation_radius, 0.0, kMaxRadius, "m",
                       "how far obstacles are inflated; at most 64 voxels"),
       choiceParameter("inflation_shape", &c->inflation_shape, {"ball", "cube", "diamond"},
@@ -135,12 +118,21 @@ std::vector<Parameter> mapperParameters(MapperConfig* c) {
   };
 }
 
+}  // namespace
+
+std::vector<Parameter> mapperParameters(MapperConfig* c) {
+  std::vector<Parameter> all = windowParameters(c);
+  for (const auto& part : {readingParameters(c), occupancyParameters(c), inflationParameters(c)}) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
 void MapperConfig::validate() const {
   MapperConfig copy = *this;
   for (const Parameter& parameter : mapperParameters(&copy)) parameter.set(parameter.get());
 
-  requireLess("min_depth", min_depth, "max_depth", max_depth);
-  requireLess("min_ray_length", min_ray_length, "max_ray_length", max_ray_length);
+  for (std::size_t sensor = 0; sensor < sensorCount(); ++sensor) readingOf(sensor).validate();
   requireLess("p_occ", p_occ, "p_max", p_max);
   requireLess("p_min", p_min, "p_miss", p_miss);
   if (virtual_walls) {

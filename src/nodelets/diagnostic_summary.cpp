@@ -1,5 +1,7 @@
 #include "diagnostic_summary.h"
 
+#include <algorithm>
+
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 namespace fiimap {
@@ -7,32 +9,65 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
+std::string missingAt(const SensorTopics& topics, const SensorTotals& now) {
+  if (now.scans == 0) return "no scans received on " + topics.scans;
+  if (!topics.camera_infos.empty() && now.camera_infos == 0) {
+    return "no camera_info received on " + topics.camera_infos;
+  }
+  return "";
+}
+
+/// What one sensor's scans do; the text is empty when all is well.
+DiagnosticSummary summarizeScans(const ScanCounters& before, const ScanCounters& now) {
+  if (now.dropped() == before.dropped()) return {DiagnosticStatus::OK, ""};
+  if (now.integrated == before.integrated) {
+    return {DiagnosticStatus::ERROR, "all scans dropped: " + now.last_drop};
+  }
+  return {DiagnosticStatus::WARN, "scans dropped: " + now.last_drop};
+}
+
+void add(const std::string& text, std::string* texts) {
+  if (!text.empty()) *texts += (texts->empty() ? "" : "; ") + text;
+}
+
+/// The counters of a sensor: where there is one only, those of all scans.
+const ScanCounters& countersOf(const ScanCounters& all, std::size_t sensor) {
+  return all.sensors.empty() ? all : all.sensors.at(sensor);
+}
+
+std::string named(const std::string& sensor, const std::string& text) {
+  return sensor.empty() || text.empty() ? text : sensor + ": " + text;
+}
+
 }  // namespace
 
 std::string missingInput(const InputTopics& topics, const InputTotals& now) {
-  const std::string remedy = ": check that it is published and remapped";
-  if (now.scans == 0) return "no scans received on " + topics.scans + remedy;
-  if (!topics.camera_infos.empty() && now.camera_infos == 0) {
-    return "no camera_info received on " + topics.camera_infos + remedy;
+  std::string missing;
+  for (std::size_t i = 0; i < topics.sensors.size(); ++i) {
+    add(named(topics.sensors[i].name, missingAt(topics.sensors[i], now.sensors[i])), &missing);
   }
-  if (now.poses == 0) return "no poses received on " + topics.poses + remedy;
-  return "";
+  if (missing.empty() && now.poses == 0) missing = "no poses received on " + topics.poses;
+  return missing.empty() ? "" : missing + ": check that it is published and remapped";
 }
 
 DiagnosticSummary summarizeInputs(const InputTopics& topics, const InputTotals& before,
                                   const InputTotals& now) {
-  const std::string missing = missingInput(topics, now);
-  if (!missing.empty()) return {DiagnosticStatus::ERROR, missing};
-  if (now.scans == before.scans) {
-    return {DiagnosticStatus::ERROR, "scans stopped on " + topics.scans};
+  DiagnosticSummary summary = {DiagnosticStatus::OK, missingInput(topics, now)};
+  if (!summary.text.empty()) summary.level = DiagnosticStatus::ERROR;
+  if (now.poses == 0) return summary;  // no scan can be used, whatever becomes of it
+  for (std::size_t i = 0; i < topics.sensors.size(); ++i) {
+    const SensorTopics& sensor = topics.sensors[i];
+    if (!missingAt(sensor, now.sensors[i]).empty()) continue;
+    DiagnosticSummary own =
+        summarizeScans(countersOf(before.counters, i), countersOf(now.counters, i));
+    if (now.sensors[i].scans == before.sensors[i].scans) {
+      own = {DiagnosticStatus::ERROR, "scans stopped on " + sensor.scans};
+    }
+    summary.level = std::max(summary.level, own.level);
+    add(named(sensor.name, own.text), &summary.text);
   }
-  if (now.counters.dropped() == before.counters.dropped()) {
-    return {DiagnosticStatus::OK, "scans and poses come in"};
-  }
-  if (now.counters.integrated == before.counters.integrated) {
-    return {DiagnosticStatus::ERROR, "all scans dropped: " + now.counters.last_drop};
-  }
-  return {DiagnosticStatus::WARN, "scans dropped: " + now.counters.last_drop};
+  if (summary.text.empty()) summary.text = "scans and poses come in";
+  return summary;
 }
 
 DiagnosticSummary summarizeMap(const MapUpdate* update, const InputTotals& before,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "fiimap/ros/scan_counters.h"
 #include "input_subscriber.h"
@@ -10,8 +11,12 @@
 namespace fiimap {
 
 /// All that came in up to one moment; the difference of two tells what came in between.
+struct SensorTotals {
+  std::uint64_t scans = 0, camera_infos = 0;  ///< messages
+};
 struct InputTotals {
-  std::uint64_t scans = 0, camera_infos = 0, poses = 0;  ///< messages
+  std::vector<SensorTotals> sensors;
+  std::uint64_t poses = 0;  ///< messages
   ScanCounters counters;
 };
 
@@ -21,7 +26,7 @@ struct DiagnosticSummary {
   std::string text;
 };
 
-/// What to warn the user of, because an input never came; empty when all came.
+/// What to warn the user of, because inputs never came; empty when all came.
 std::string missingInput(const InputTopics& topics, const InputTotals& now);
 
 /// Whether scans and poses come in, and what becomes of them.

@@ -5,19 +5,24 @@
 
 namespace fiimap {
 
+InputQueue::InputQueue(std::size_t max_scans, std::size_t sensors)
+    : sensors_(sensors), bounds_(sensors, Bound{max_scans}) {
+  bounds_.push_back(Bound{kMaxOthers});
+}
+
 void InputQueue::push(Task task, Kind kind) {
   // Destroyed after the lock is released, as it may hold the last reference to a message.
   Task displaced;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return;
-    if (kind != kControl && counts_[kind]++ == max_[kind]) {
+    if (kind < bounds_.size() && bounds_[kind].count++ == bounds_[kind].max) {
       const auto oldest = std::find_if(entries_.begin(), entries_.end(),
                                        [kind](const Entry& e) { return e.kind == kind; });
       displaced.swap(oldest->task);
       entries_.erase(oldest);
-      --counts_[kind];
-      ++displaced_[kind];
+      --bounds_[kind].count;
+      ++bounds_[kind].displaced;
     }
     entries_.push_back({std::move(task), kind});
   }
@@ -31,10 +36,12 @@ InputQueue::Batch InputQueue::take(std::chrono::milliseconds wait) {
   batch.tasks.reserve(entries_.size());
   for (Entry& entry : entries_) batch.tasks.push_back(std::move(entry.task));
   entries_.clear();
-  counts_ = {};
-  batch.displaced_scans = displaced_[kScan];
-  batch.displaced_others = displaced_[kOther];
-  displaced_ = {};
+  for (Bound& bound : bounds_) {
+    bound.count = 0;
+    batch.displaced_scans.push_back(std::exchange(bound.displaced, 0));
+  }
+  batch.displaced_others = batch.displaced_scans.back();
+  batch.displaced_scans.pop_back();
   return batch;
 }
 
@@ -44,7 +51,7 @@ void InputQueue::close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closed_ = true;
     discarded.swap(entries_);
-    counts_ = {};
+    for (Bound& bound : bounds_) bound.count = 0;
   }
   changed_.notify_all();
 }

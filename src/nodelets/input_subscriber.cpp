@@ -1,5 +1,6 @@
 #include "input_subscriber.h"
 
+#include <algorithm>
 #include <functional>
 
 #include <ros/transport_hints.h>
@@ -21,38 +22,48 @@ ros::TransportHints withoutDelay() { return ros::TransportHints().tcpNoDelay(); 
 InputSubscriber::InputSubscriber(const ros::NodeHandle& node, const NodeConfig& config,
                                  MappingThread* mapping)
     : node_(node), mapping_(mapping) {
+  const std::vector<SensorConfig> sensors = config.allSensors();
+  counts_.sensors = std::vector<SensorCounts>(sensors.size());
   const bool poses_from_tf = config.pose_source == PoseSource::kTf;
+  const bool extrinsics_from_tf = std::any_of(
+      sensors.begin(), sensors.end(),
+      [](const SensorConfig& sensor) { return sensor.extrinsics == ExtrinsicsSource::kTf; });
   // First what scans need, so that the first scan finds it.
-  if (poses_from_tf || config.extrinsics == ExtrinsicsSource::kTf) subscribeToTf(poses_from_tf);
+  if (poses_from_tf || extrinsics_from_tf) subscribeToTf(poses_from_tf);
   if (!poses_from_tf) subscribeToPoses(config);
-  subscribeToScans(config);
+  for (std::size_t i = 0; i < sensors.size(); ++i) subscribeToSensor(sensors[i], i);
 }
 
 InputSubscriber::~InputSubscriber() {
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
 }
 
-void InputSubscriber::subscribeToScans(const NodeConfig& config) {
+void InputSubscriber::subscribeToSensor(const SensorConfig& config, std::size_t sensor) {
+  SensorTopics topics;
+  topics.name = config.name;
   if (config.sensor == SensorKind::kPoints) {
-    topics_.scans = subscribeToScanTopic<sensor_msgs::PointCloud2>("points");
+    topics.scans = subscribeToScans<sensor_msgs::PointCloud2>(config.prefix() + "points", sensor);
+    topics_.sensors.push_back(topics);
     return;
   }
   const Callback<sensor_msgs::CameraInfo> on_info =
-      [this](const sensor_msgs::CameraInfoConstPtr& info) {
-        ++counts_.camera_infos;
-        mapping_->post([info](ScanSynchronizer* synchronizer) { synchronizer->add(info); });
+      [this, sensor](const sensor_msgs::CameraInfoConstPtr& info) {
+        ++counts_.sensors[sensor].camera_infos;
+        mapping_->post(
+            [info, sensor](ScanSynchronizer* synchronizer) { synchronizer->add(info, sensor); });
       };
-  subscribers_.push_back(
-      node_.subscribe<sensor_msgs::CameraInfo>("depth/camera_info", kScanQueue, on_info));
-  topics_.camera_infos = subscribers_.back().getTopic();
-  topics_.scans = subscribeToScanTopic<sensor_msgs::Image>("depth/image");
+  subscribers_.push_back(node_.subscribe<sensor_msgs::CameraInfo>(
+      config.prefix() + "depth/camera_info", kScanQueue, on_info));
+  topics.camera_infos = subscribers_.back().getTopic();
+  topics.scans = subscribeToScans<sensor_msgs::Image>(config.prefix() + "depth/image", sensor);
+  topics_.sensors.push_back(topics);
 }
 
 template <typename Message>
-std::string InputSubscriber::subscribeToScanTopic(const std::string& topic) {
-  const Callback<Message> on_scan = [this](const boost::shared_ptr<const Message>& scan) {
-    ++counts_.scans;
-    mapping_->addScan(scan);
+std::string InputSubscriber::subscribeToScans(const std::string& topic, std::size_t sensor) {
+  const Callback<Message> on_scan = [this, sensor](const boost::shared_ptr<const Message>& scan) {
+    ++counts_.sensors[sensor].scans;
+    mapping_->addScan(scan, sensor);
   };
   subscribers_.push_back(node_.subscribe<Message>(topic, kScanQueue, on_scan));
   return subscribers_.back().getTopic();

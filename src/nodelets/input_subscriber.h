@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,17 +14,27 @@
 
 namespace fiimap {
 
-/// Messages that arrived.
-struct InputCounts {
+/// Messages of a sensor that arrived.
+struct SensorCounts {
   std::atomic<std::uint64_t> scans{0};
   std::atomic<std::uint64_t> camera_infos{0};
+};
+
+/// Messages that arrived.
+struct InputCounts {
+  std::vector<SensorCounts> sensors;
   std::atomic<std::uint64_t> poses{0};  ///< pose messages, or /tf where poses come from there
 };
 
 /// Resolved names, for messages to the user.
-struct InputTopics {
+struct SensorTopics {
+  std::string name;  ///< of the sensor; empty where there is one only
   std::string scans;
   std::string camera_infos;  ///< empty where none is needed
+};
+
+struct InputTopics {
+  std::vector<SensorTopics> sensors;
   std::string poses;
 };
 
@@ -39,11 +50,11 @@ class InputSubscriber {
   const InputTopics& topics() const { return topics_; }
 
  private:
-  void subscribeToScans(const NodeConfig& config);
+  void subscribeToSensor(const SensorConfig& config, std::size_t sensor);
   void subscribeToPoses(const NodeConfig& config);
   void subscribeToTf(bool gives_poses);
   template <typename Message>
-  std::string subscribeToScanTopic(const std::string& topic);
+  std::string subscribeToScans(const std::string& topic, std::size_t sensor);
   template <typename Message>
   std::string subscribeToPoseTopic(const std::string& topic);
 

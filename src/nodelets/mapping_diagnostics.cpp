@@ -22,6 +22,15 @@ const char* nameOf(Occupancy occupancy) {
   }
 }
 
+SensorTotals sumOf(const std::vector<SensorTotals>& sensors) {
+  SensorTotals sum;
+  for (const SensorTotals& sensor : sensors) {
+    sum.scans += sensor.scans;
+    sum.camera_infos += sensor.camera_infos;
+  }
+  return sum;
+}
+
 }  // namespace
 
 MappingDiagnostics::MappingDiagnostics(const ros::NodeHandle& node,
@@ -55,33 +64,57 @@ std::string MappingDiagnostics::publish() {
 
 MappingDiagnostics::Totals MappingDiagnostics::totals() const {
   const InputCounts& counts = inputs_.counts();
-  return {{counts.scans, counts.camera_infos, counts.poses, counters_()}, Clock::now()};
+  Totals totals;
+  for (const SensorCounts& sensor : counts.sensors) {
+    totals.sensors.push_back({sensor.scans, sensor.camera_infos});
+  }
+  totals.poses = counts.poses;
+  totals.counters = counters_();
+  totals.time = Clock::now();
+  return totals;
 }
 
 void MappingDiagnostics::reportInputs(Status& status) {
-  const double seconds = secondsBetween(before_.time, now_.time);
-  const auto rate = [seconds](std::uint64_t before, std::uint64_t now) {
-    return seconds > 0.0 ? static_cast<double>(now - before) / seconds : 0.0;
-  };
   const ScanCounters& counters = now_.counters;
   const DiagnosticSummary summary = summarizeInputs(inputs_.topics(), before_, now_);
   status.summary(summary.level, summary.text);
-  status.addf("scan rate [Hz]", "%.1f", rate(before_.scans, now_.scans));
-  status.addf("camera_info rate [Hz]", "%.1f", rate(before_.camera_infos, now_.camera_infos));
-  status.addf("pose rate [Hz]", "%.1f", rate(before_.poses, now_.poses));
-  status.add("scans received", counters.received);
-  status.add("scans integrated", counters.integrated);
-  status.add("scans waiting", counters.waiting);
-  status.add("scans dropped", counters.dropped());
-  for (int i = 0; i < kDropReasonCount; ++i) {
-    const auto reason = static_cast<DropReason>(i);
-    if (counters.dropped(reason) == 0) continue;
-    status.add(std::string("dropped: ") + fiimap::nameOf(reason), counters.dropped(reason));
-  }
+  addRates("", sumOf(before_.sensors), sumOf(now_.sensors), &status);
+  addRate("pose rate [Hz]", before_.poses, now_.poses, &status);
+  addCounters("", counters, &status);
   status.add("last drop", counters.last_drop);
   status.add("poses refused", counters.refused_poses);
   status.add("transforms refused", counters.refused_transforms);
   status.add("poses, transforms and camera infos displaced", counters.displaced_inputs);
+  for (std::size_t i = 0; i < counters.sensors.size(); ++i) {
+    const std::string prefix = inputs_.topics().sensors[i].name + ": ";
+    addRates(prefix, before_.sensors[i], now_.sensors[i], &status);
+    addCounters(prefix, counters.sensors[i], &status);
+  }
+}
+
+void MappingDiagnostics::addRate(const std::string& key, std::uint64_t before, std::uint64_t now,
+                                 Status* status) const {
+  const double seconds = secondsBetween(before_.time, now_.time);
+  status->addf(key, "%.1f", seconds > 0.0 ? static_cast<double>(now - before) / seconds : 0.0);
+}
+
+void MappingDiagnostics::addRates(const std::string& prefix, const SensorTotals& before,
+                                  const SensorTotals& now, Status* status) const {
+  addRate(prefix + "scan rate [Hz]", before.scans, now.scans, status);
+  addRate(prefix + "camera_info rate [Hz]", before.camera_infos, now.camera_infos, status);
+}
+
+void MappingDiagnostics::addCounters(const std::string& prefix, const ScanCounters& counters,
+                                     Status* status) {
+  status->add(prefix + "scans received", counters.received);
+  status->add(prefix + "scans integrated", counters.integrated);
+  status->add(prefix + "scans waiting", counters.waiting);
+  status->add(prefix + "scans dropped", counters.dropped());
+  for (int i = 0; i < kDropReasonCount; ++i) {
+    const auto reason = static_cast<DropReason>(i);
+    if (counters.dropped(reason) == 0) continue;
+    status->add(prefix + "dropped: " + fiimap::nameOf(reason), counters.dropped(reason));
+  }
 }
 
 void MappingDiagnostics::reportMap(Status& status) {

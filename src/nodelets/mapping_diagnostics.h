@@ -42,6 +42,11 @@ class MappingDiagnostics {
   Totals totals() const;
   void reportInputs(Status& status);
   void reportMap(Status& status);
+  void addRate(const std::string& key, std::uint64_t before, std::uint64_t now,
+               Status* status) const;
+  void addRates(const std::string& prefix, const SensorTotals& before, const SensorTotals& now,
+                Status* status) const;
+  static void addCounters(const std::string& prefix, const ScanCounters& counters, Status* status);
   static void addUpdate(const MapUpdate& update, Status* status);
 
   const InputSubscriber& inputs_;

@@ -21,7 +21,7 @@ constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
 constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
-constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one reason
+constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one kind
 constexpr double kMegabyte = 1e6;
 
 /// Parameters of others that live in our namespace.
@@ -63,7 +63,8 @@ void MappingNodelet::configureFromParameters() {
   const ParameterMap values = parameterMapFromRos(getPrivateNodeHandle());
   for (const std::string& name : configure(values, &mapper_config_, &node_config_)) {
     if (isForeignParameter(name)) continue;
-    NODELET_WARN("parameter %s is unknown and has no effect", name.c_str());
+    NODELET_WARN("parameter %s is unknown and has no effect%s", name.c_str(),
+                 hintForUnknown(name).c_str());
   }
 }
 
@@ -176,9 +177,10 @@ void MappingNodelet::onReset(const std::string& why) {
 
 void MappingNodelet::onDrop(const Drop& drop) {
   const auto now = std::chrono::steady_clock::now();
-  const auto last = warned_.find(drop.reason);
+  const std::pair<DropReason, std::string> kind(drop.reason, drop.sensor);
+  const auto last = warned_.find(kind);
   if (last != warned_.end() && now - last->second < kDropPeriod) return;
-  warned_[drop.reason] = now;
+  warned_[kind] = now;
   NODELET_WARN("scan dropped: %s", drop.text().c_str());
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fiimap/GetBox.h>
@@ -52,7 +53,8 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   MapperConfig mapper_config_;
   NodeConfig node_config_;
   std::shared_ptr<MapHandle> handle_;
-  std::map<DropReason, std::chrono::steady_clock::time_point> warned_;  // mapping thread only
+  // When a drop was warned of, by reason and sensor; of the mapping thread alone.
+  std::map<std::pair<DropReason, std::string>, std::chrono::steady_clock::time_point> warned_;
 
   ros::Publisher statistics_publisher_;
   ros::Publisher handle_publisher_;

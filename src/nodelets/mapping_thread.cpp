@@ -19,12 +19,16 @@ using Clock = std::chrono::steady_clock;
 
 MappingThread::MappingThread(const MapperConfig& mapper_config, const NodeConfig& node_config,
                              std::shared_ptr<MapHandle> handle, MapObserver* observer)
-    : config_(node_config),
+    : sensors_(node_config.allSensors()),
       handle_(std::move(handle)),
       observer_(observer),
       mapper_(mapper_config),
       synchronizer_(node_config, this),
-      queue_(static_cast<std::size_t>(node_config.scan_queue_size)) {}
+      ready_(static_cast<std::size_t>(node_config.ready_queue_size), sensors_.size()),
+      queue_(static_cast<std::size_t>(node_config.scan_queue_size), sensors_.size()) {
+  counters_.sensors.resize(node_config.sensors.size());
+  published_counters_ = counters_;
+}
 
 void MappingThread::start() {
   thread_ = std::thread([this] { run(); });
@@ -36,11 +40,13 @@ void MappingThread::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void MappingThread::addScan(const ScanMessage& scan) {
-  queue_.pushScan([this, scan, received = readClocks()] {
-    ++counters_.received;
-    synchronizer_.add(scan, received);
-  });
+void MappingThread::addScan(const ScanMessage& scan, std::size_t sensor) {
+  queue_.pushScan(
+      [this, scan, sensor, received = readClocks()] {
+        counters_.countReceived(sensor);
+        synchronizer_.add(scan, received, sensor);
+      },
+      sensor);
 }
 
 void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
@@ -85,7 +91,14 @@ ScanCounters MappingThread::counters() const {
   return published_counters_;
 }
 
-void MappingThread::countWaiting() { counters_.waiting = synchronizer_.waiting() + ready_.size(); }
+void MappingThread::countWaiting() {
+  counters_.waiting = 0;
+  for (std::size_t sensor = 0; sensor < sensors_.size(); ++sensor) {
+    const std::size_t waiting = synchronizer_.waiting(sensor) + ready_.size(sensor);
+    counters_.waiting += waiting;
+    if (!counters_.sensors.empty()) counters_.sensors[sensor].waiting = waiting;
+  }
+}
 
 void MappingThread::publishCounters() {
   countWaiting();
@@ -103,9 +116,11 @@ void MappingThread::step() {
   // Before the queue is emptied, so that no scan expires while its pose is in the queue.
   const Moment now = readClocks();
   const InputQueue::Batch batch = queue_.take(ready_.empty() ? kPoll : kPoll * 0);
-  for (std::size_t i = 0; i < batch.displaced_scans; ++i) {
-    ++counters_.received;
-    drop({DropReason::kOverload, "a scan was displaced before it could be looked at"});
+  for (std::size_t sensor = 0; sensor < batch.displaced_scans.size(); ++sensor) {
+    for (std::size_t i = 0; i < batch.displaced_scans[sensor]; ++i) {
+      counters_.countReceived(sensor);
+      drop({DropReason::kOverload, "a scan was displaced before it could be looked at"}, sensor);
+    }
   }
   counters_.displaced_inputs += batch.displaced_others;
   for (const InputQueue::Task& task : batch.tasks) {
@@ -113,21 +128,20 @@ void MappingThread::step() {
     task();
   }
   synchronizer_.expire(now);
-  if (!ready_.empty()) integrateNext();
+  if (!ready_.empty()) integrate(ready_.pop());
   publishCounters();
 }
 
-void MappingThread::integrateNext() {
-  const SynchronizedScan scan = std::move(ready_.front());
-  ready_.pop_front();
+void MappingThread::integrate(const SynchronizedScan& scan) {
   MapUpdate update;
+  update.sensor = sensors_[scan.sensor].name;
   try {
     update.report = decoder_.integrate(scan, &mapper_);
   } catch (const InputError& error) {
-    drop(error.drop());
+    drop(error.drop(), scan.sensor);
     return;
   }
-  ++counters_.integrated;
+  counters_.countIntegrated(scan.sensor);
   countWaiting();
   const Clock::time_point start = Clock::now();
   update.snapshot = mapper_.snapshot();
@@ -144,15 +158,13 @@ void MappingThread::integrateNext() {
 }
 
 void MappingThread::onScan(const SynchronizedScan& scan) {
-  ready_.push_back(scan);
-  if (ready_.size() <= static_cast<std::size_t>(config_.ready_queue_size)) return;
-  ready_.pop_front();
-  drop({DropReason::kOverload, "newer scans came while the map was busy"});
+  if (!ready_.push(scan)) return;
+  drop({DropReason::kOverload, "newer scans came while the map was busy"}, scan.sensor);
 }
 
 void MappingThread::onTimeJump(const std::string& what) {
-  for (; !ready_.empty(); ready_.pop_front()) {
-    drop({DropReason::kTimeJump, what + " while the scan waited for the map"});
+  while (!ready_.empty()) {
+    drop({DropReason::kTimeJump, what + " while the scan waited for the map"}, ready_.pop().sensor);
   }
   forget(what);
 }
@@ -163,9 +175,11 @@ void MappingThread::forget(const std::string& why) {
   observer_->onReset(why);
 }
 
-void MappingThread::drop(const Drop& drop) {
-  counters_.countDrop(drop);
-  observer_->onDrop(drop);
+void MappingThread::drop(const Drop& drop, std::size_t sensor) {
+  Drop named = drop;
+  named.sensor = sensors_[sensor].name;
+  counters_.countDrop(named, sensor);
+  observer_->onDrop(named);
 }
 
 }  // namespace fiimap

@@ -2,12 +2,12 @@
 
 #include <atomic>
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "fiimap/map_handle.h"
 #include "fiimap/mapper.h"
@@ -15,11 +15,13 @@
 #include "fiimap/ros/scan_decoder.h"
 #include "fiimap/ros/scan_synchronizer.h"
 #include "input_queue.h"
+#include "ready_queue.h"
 
 namespace fiimap {
 
 /// The map after a scan, and what the scan did.
 struct MapUpdate {
+  std::string sensor;  ///< name; empty where there is one only
   ScanPose pose;
   Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< vehicle's body to world
   double pose_gap = 0.0;                                    ///< s between the poses around the scan
@@ -60,7 +62,8 @@ class MappingThread : private ScanListener {
   /// The mapper, for questions before start().
   const Mapper& mapper() const { return mapper_; }
 
-  void addScan(const ScanMessage& scan);
+  /// \param sensor index in NodeConfig::sensors.
+  void addScan(const ScanMessage& scan, std::size_t sensor = 0);
   /// Enqueues anything else that the synchronizer takes.
   void post(std::function<void(ScanSynchronizer*)> input);
 
@@ -73,19 +76,19 @@ class MappingThread : private ScanListener {
  private:
   void run();
   void step();
-  void integrateNext();
+  void integrate(const SynchronizedScan& scan);
   Moment readClocks();
   void forget(const std::string& why);
-  void drop(const Drop& drop);
+  void drop(const Drop& drop, std::size_t sensor);
   void countWaiting();
   void publishCounters();
 
   void onScan(const SynchronizedScan& scan) override;
-  void onDrop(const Drop& drop) override { this->drop(drop); }
+  void onDrop(const Drop& drop, std::size_t sensor) override { this->drop(drop, sensor); }
   void onTimeJump(const std::string& what) override;
   void onWarning(const std::string& text) override { observer_->onWarning(text); }
 
-  NodeConfig config_;
+  std::vector<SensorConfig> sensors_;
   std::shared_ptr<MapHandle> handle_;
   MapObserver* observer_;
 
@@ -94,7 +97,7 @@ class MappingThread : private ScanListener {
   ScanSynchronizer synchronizer_;
   ScanDecoder decoder_;
   ScanCounters counters_;
-  std::deque<SynchronizedScan> ready_;
+  ReadyQueue ready_;
 
   std::mutex clock_mutex_;
   ros::Time newest_time_;  // by the ROS clock

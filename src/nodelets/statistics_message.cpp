@@ -52,6 +52,7 @@ Statistics toStatistics(const MapUpdate& update, const std::string& map_frame) {
   Statistics message;
   message.header = toHeader(*update.snapshot, map_frame);
   message.sequence = update.snapshot->info().sequence;
+  message.sensor = update.sensor;
   setTimes(update.report.times_ms, update.decode_ms, &message);
   setScan(update.report, &message);
   message.occupied = static_cast<std::uint64_t>(update.snapshot->count(Plane::kOccupied));

@@ -47,7 +47,8 @@ const char* remedyFor(DropReason reason) {
 }
 
 std::string Drop::text() const {
-  return std::string(nameOf(reason)) + ": " + detail + "; " + remedyFor(reason);
+  const std::string who = sensor.empty() ? "" : sensor + ": ";
+  return std::string(nameOf(reason)) + ": " + who + detail + "; " + remedyFor(reason);
 }
 
 }  // namespace fiimap

@@ -1,58 +1,20 @@
 #include "fiimap/ros/node_config.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <locale>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
+
+#include "sensor_parameters.h"
 
 namespace fiimap {
 namespace {
 
-constexpr double kMaxSeconds = 3600.0;
 constexpr double kMinSeconds = 0.001;
 constexpr double kMaxRate = 1000.0;  // Hz
 constexpr int kMaxQueue = 1000;
-constexpr double kNormTolerance = 0.01;  // of extrinsic_rotation, for values rounded to two digits
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-template <typename Vector>
-std::string joinNumbers(const Vector& vector) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(std::numeric_limits<double>::digits10);
-  for (int i = 0; i < vector.size(); ++i) text << (i > 0 ? " " : "") << vector[i];
-  return text.str();
-}
-
-/// A list of as many numbers as `field` has: "1 2 3", or as on command lines "[1, 2, 3]".
-template <typename Vector>
-Parameter vectorParameter(const std::string& name, Vector* field, const std::string& unit,
-                          const std::string& meaning) {
-  const std::string allowed = "a list of " + std::to_string(field->size()) + " finite numbers";
-  return {name,
-          unit,
-          allowed,
-          meaning,
-          [field] { return joinNumbers(*field); },
-          [name, field, allowed](const std::string& text) {
-            std::string numbers = text;
-            for (const char separator : {'[', ',', ']'}) {
-              std::replace(numbers.begin(), numbers.end(), separator, ' ');
-            }
-            std::istringstream stream(numbers);
-            stream.imbue(std::locale::classic());
-            Vector vector;
-            for (int i = 0; i < vector.size(); ++i) stream >> vector[i];
-            const bool complete = !stream.fail() && (stream >> std::ws).eof();
-            if (!complete || !vector.allFinite()) {
-              refuse("parameter " + name + " = '" + text + "': must be " + allowed);
-            }
-            *field = vector;
-          }};
-}
 
 void requireFrame(const std::string& name, const std::string& frame) {
   if (!frame.empty() && frame.front() == '/') {
@@ -60,35 +22,20 @@ void requireFrame(const std::string& name, const std::string& frame) {
   }
 }
 
-}  // namespace
-
-Eigen::Isometry3d NodeConfig::parameterExtrinsics() const {
-  const Eigen::Vector4d& q = extrinsic_rotation;
-  Eigen::Isometry3d T_B_S = Eigen::Isometry3d::Identity();
-  T_B_S.linear() = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
-  T_B_S.translation() = extrinsic_translation;
-  return T_B_S;
-}
-
-std::vector<Parameter> nodeParameters(NodeConfig* c) {
+std::vector<Parameter> poseParameters(NodeConfig* c) {
   return {
       textParameter("map_frame", &c->map_frame,
                     "frame of the map and of the poses, no leading '/'"),
-      choiceParameter("sensor", &c->sensor, {"depth", "points"},
-                      "depth: depth/image with depth/camera_info; points: points"),
       choiceParameter("pose_source", &c->pose_source, {"odometry", "pose", "transform", "tf"},
                       "where poses come from: the topics odom, pose, transform, or /tf"),
       textParameter("body_frame", &c->body_frame,
                     "frame whose pose is given; empty: child_frame_id of the pose message"),
-      choiceParameter("extrinsics", &c->extrinsics, {"tf", "parameter"},
-                      "where the sensor's place on the body comes from"),
-      vectorParameter("extrinsic_translation", &c->extrinsic_translation, "m",
-                      "x y z of the sensor in the body frame"),
-      vectorParameter("extrinsic_rotation", &c->extrinsic_rotation, "",
-                      "quaternion x y z w that rotates from sensor to body frame"),
+      sensorsParameter(&c->sensors),
+  };
+}
 
-      numberParameter("time_offset", &c->time_offset, -kMaxSeconds, kMaxSeconds, "s",
-                      "added to the stamps of the sensor"),
+std::vector<Parameter> queueAndOutputParameters(NodeConfig* c) {
+  return {
       numberParameter("max_pose_gap", &c->max_pose_gap, kMinSeconds, kMaxSeconds, "s",
                       "largest time between the two poses around a scan"),
       numberParameter("max_pose_wait", &c->max_pose_wait, 0.0, kMaxSeconds, "s",
@@ -107,6 +54,73 @@ std::vector<Parameter> nodeParameters(NodeConfig* c) {
   };
 }
 
+void append(std::vector<Parameter> more, std::vector<Parameter>* all) {
+  std::move(more.begin(), more.end(), std::back_inserter(*all));
+}
+
+/// What lies under a sensor's name cannot lie under a parameter's.
+void requireFreeNames(const std::vector<SensorConfig>& sensors,
+                      const std::vector<Parameter>& parameters) {
+  for (const Parameter& parameter : parameters) {
+    for (const SensorConfig& sensor : sensors) {
+      if (sensor.name != parameter.name) continue;
+      refuse("parameter sensors = '" + joinNames(sensors) + "': '" + sensor.name +
+             "' is the name of a parameter, must be another");
+    }
+  }
+}
+
+/// Gives each sensor what is set for all.
+void shareAmongSensors(MapperConfig* mapper, NodeConfig* node) {
+  for (SensorConfig& sensor : node->sensors) {
+    std::string name = std::move(sensor.name);
+    sensor = *node;
+    sensor.name = std::move(name);
+  }
+  mapper->sensors.assign(node->sensors.size(), *mapper);
+}
+
+/// \return the names that no parameter has, as configure() does.
+std::vector<std::string> configureSensors(const ParameterMap& values, MapperConfig* mapper,
+                                          NodeConfig* node) {
+  std::vector<std::string> unknown;
+  for (std::string& name : applyParameters(values, sensorParameters(mapper, node))) {
+    const std::string space = name.substr(0, name.find('/'));
+    const bool is_sensor =
+        std::any_of(node->sensors.begin(), node->sensors.end(),
+                    [&space](const SensorConfig& sensor) { return sensor.name == space; });
+    if (!is_sensor) name = space;
+    if (unknown.empty() || unknown.back() != name) unknown.push_back(name);
+  }
+  for (std::size_t i = 0; i < node->sensors.size(); ++i) {
+    mapper->sensors[i].validate(node->sensors[i].prefix());
+  }
+  return unknown;
+}
+
+}  // namespace
+
+std::vector<SensorConfig> NodeConfig::allSensors() const {
+  return sensors.empty() ? std::vector<SensorConfig>{*this} : sensors;
+}
+
+std::vector<Parameter> nodeParameters(NodeConfig* c) {
+  std::vector<Parameter> all = poseParameters(c);
+  append(parametersOfSensor(c, ""), &all);
+  append(queueAndOutputParameters(c), &all);
+  return all;
+}
+
+std::vector<Parameter> sensorParameters(MapperConfig* mapper, NodeConfig* node) {
+  std::vector<Parameter> all;
+  for (std::size_t i = 0; i < node->sensors.size(); ++i) {
+    const std::string prefix = node->sensors[i].prefix();
+    append(parametersOfSensor(&node->sensors[i], prefix), &all);
+    append(readingParameters(&mapper->sensors[i], prefix), &all);
+  }
+  return all;
+}
+
 void NodeConfig::validate() const {
   NodeConfig copy = *this;
   for (const Parameter& parameter : nodeParameters(&copy)) parameter.set(parameter.get());
@@ -114,35 +128,51 @@ void NodeConfig::validate() const {
   if (map_frame.empty()) refuse("parameter map_frame = '': must name a frame");
   requireFrame("map_frame", map_frame);
   requireFrame("body_frame", body_frame);
-  if (std::abs(extrinsic_rotation.norm() - 1.0) > kNormTolerance) {
-    refuse("parameter extrinsic_rotation = '" + joinNumbers(extrinsic_rotation) +
-           "': must be a quaternion x y z w of norm 1");
-  }
+  for (const SensorConfig& each : allSensors()) each.validate();
   if (pose_history < max_pose_wait || pose_history < max_pose_gap) {
     refuse("parameter pose_history = " + std::to_string(pose_history) +
            ": must be at least max_pose_wait and max_pose_gap");
   }
-  const bool from_tf = extrinsics == ExtrinsicsSource::kTf;
-  if (body_frame.empty() && pose_source == PoseSource::kPose && from_tf) {
-    refuse(
-        "parameter body_frame = '': must be set, because extrinsics = tf and the messages of "
-        "pose_source = pose do not name their body");
-  }
-  if (body_frame.empty() && pose_source == PoseSource::kTf && !from_tf) {
-    refuse(
-        "parameter body_frame = '': must be set, because extrinsics = parameter starts from the "
-        "body and pose_source = tf needs its name");
+  if (!body_frame.empty()) return;
+  for (const SensorConfig& each : allSensors()) {
+    const bool from_tf = each.extrinsics == ExtrinsicsSource::kTf;
+    if (pose_source == PoseSource::kPose && from_tf) {
+      refuse("parameter body_frame = '': must be set, because " + each.prefix() +
+             "extrinsics = tf and the messages of pose_source = pose do not name their body");
+    }
+    if (pose_source == PoseSource::kTf && !from_tf) {
+      refuse("parameter body_frame = '': must be set, because " + each.prefix() +
+             "extrinsics = parameter starts from the body and pose_source = tf needs its name");
+    }
   }
 }
 
 std::vector<std::string> configure(const ParameterMap& values, MapperConfig* mapper,
                                    NodeConfig* node) {
+  ParameterMap of_all, of_sensors;
+  for (const auto& [name, value] : values) {
+    (name.find('/') == std::string::npos ? of_all : of_sensors)[name] = value;
+  }
   std::vector<Parameter> parameters = mapperParameters(mapper);
-  for (Parameter& parameter : nodeParameters(node)) parameters.push_back(std::move(parameter));
-  std::vector<std::string> unknown = applyParameters(values, parameters);
+  append(nodeParameters(node), &parameters);
+  std::vector<std::string> unknown = applyParameters(of_all, parameters);
+  requireFreeNames(node->sensors, parameters);
+  shareAmongSensors(mapper, node);
+  for (std::string& name : configureSensors(of_sensors, mapper, node)) unknown.push_back(name);
   mapper->validate();
   node->validate();
   return unknown;
+}
+
+std::string hintForUnknown(const std::string& name) {
+  if (name.find('/') == std::string::npos) return "";
+  MapperConfig mapper;
+  NodeConfig node;
+  std::string names;
+  for (const auto& list : {parametersOfSensor(&node, ""), readingParameters(&mapper)}) {
+    for (const Parameter& parameter : list) names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  return "; a sensor may have of its own: " + names;
 }
 
 }  // namespace fiimap

@@ -17,6 +17,14 @@ namespace {
   throw std::invalid_argument("parameter " + name + ": " + what);
 }
 
+/// Lists are joined by spaces.
+void append(const std::string& name, const std::string& element, bool is_text, std::string* list) {
+  if (is_text && (element.empty() || element.find_first_of(" \t\n") != std::string::npos)) {
+    refuse(name, "'" + element + "' in a list must be a number or a word");
+  }
+  *list += (list->empty() ? "" : " ") + element;
+}
+
 /// The shortest text that reads back as the same number.
 std::string toText(double value) {
   for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
@@ -44,7 +52,10 @@ std::string toText(const std::string& name, XmlRpc::XmlRpcValue value) {
       return static_cast<std::string>(value);
     case XmlRpc::XmlRpcValue::TypeArray: {
       std::string joined;
-      for (int i = 0; i < value.size(); ++i) joined += (i > 0 ? " " : "") + toText(name, value[i]);
+      for (int i = 0; i < value.size(); ++i) {
+        const bool is_text = value[i].getType() == XmlRpc::XmlRpcValue::TypeString;
+        append(name, toText(name, value[i]), is_text, &joined);
+      }
       return joined;
     }
     default:
@@ -70,9 +81,30 @@ std::string toText(const std::string& name, const YAML::Node& node) {
   if (!node.IsSequence()) refuse(name, "must be a number, text, true or false, or a list");
   std::string joined;
   for (std::size_t i = 0; i < node.size(); ++i) {
-    joined += (i > 0 ? " " : "") + toText(name, node[i]);
+    append(name, toText(name, node[i]), node[i].IsScalar(), &joined);
   }
   return joined;
+}
+
+/// A sensor's parameters, or what others keep there: of that, the name alone lets the caller say
+/// that it is unknown, whatever its value is.
+template <typename Value>
+void addEntry(const std::string& name, const Value& value, ParameterMap* values) {
+  try {
+    (*values)[name] = toText(name, value);
+  } catch (const std::invalid_argument&) {
+    (*values)[name] = "";
+  }
+}
+
+void addNamespace(const std::string& name, XmlRpc::XmlRpcValue& entries, ParameterMap* values) {
+  for (auto& [key, value] : entries) addEntry(name + '/' + key, value, values);
+}
+
+void addNamespace(const std::string& name, const YAML::Node& entries, ParameterMap* values) {
+  for (const auto& entry : entries) {
+    addEntry(name + '/' + entry.first.as<std::string>(), entry.second, values);
+  }
 }
 
 }  // namespace
@@ -83,9 +115,11 @@ ParameterMap parameterMapFromRos(const ros::NodeHandle& node) {
   const bool found = node.getParam(node.getNamespace(), all);
   if (!found || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return values;
   for (auto& [name, value] : all) {
-    // No parameter is a namespace; the name alone lets the caller say that it is unknown.
-    const bool is_namespace = value.getType() == XmlRpc::XmlRpcValue::TypeStruct;
-    values[name] = is_namespace ? "" : toText(name, value);
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+      values[name] = toText(name, value);
+    } else {
+      addNamespace(name, value, &values);
+    }
   }
   return values;
 }
@@ -98,7 +132,11 @@ ParameterMap parameterMapFromYaml(const std::string& file) {
     if (!all.IsMap()) throw std::invalid_argument("must hold 'name: value' lines");
     for (const auto& entry : all) {
       const std::string name = entry.first.as<std::string>();
-      values[name] = entry.second.IsMap() ? "" : toText(name, entry.second);
+      if (entry.second.IsMap()) {
+        addNamespace(name, entry.second, &values);
+      } else {
+        values[name] = toText(name, entry.second);
+      }
     }
   } catch (const std::exception& error) {
     throw std::invalid_argument(file + ": " + error.what());

@@ -106,15 +106,16 @@ void PoseResolver::clear() {
   refused_.reset();
 }
 
-ResolvedPose PoseResolver::at(const std::string& sensor_frame, const ros::Time& stamp) const {
+ResolvedPose PoseResolver::at(const SensorConfig& sensor, const std::string& sensor_frame,
+                              const ros::Time& stamp) const {
   if (config_.pose_source == PoseSource::kTf) {
-    return config_.extrinsics == ExtrinsicsSource::kTf ? sensorFromTf(sensor_frame, stamp)
-                                                       : bodyFromTf(sensor_frame, stamp);
+    return sensor.extrinsics == ExtrinsicsSource::kTf ? sensorFromTf(sensor_frame, stamp)
+                                                      : bodyFromTf(sensor, sensor_frame, stamp);
   }
   const PoseAtStamp body = history_.at(stamp);
   if (body.lookup != PoseLookup::kFound) return withoutMessage(body, stamp);
   const bool named = !config_.body_frame.empty();
-  return sensorOnBody(body.T_W_B, body.gap,
+  return sensorOnBody(sensor, body.T_W_B, body.gap,
                       named ? config_.body_frame : plainFrame(body.body_frame), sensor_frame,
                       stamp);
 }
@@ -138,12 +139,12 @@ ResolvedPose PoseResolver::withoutMessage(const PoseAtStamp& pose, const ros::Ti
                                             " older than the scan");
 }
 
-ResolvedPose PoseResolver::sensorOnBody(const Eigen::Isometry3d& T_W_B, double gap,
-                                        const std::string& body_frame,
+ResolvedPose PoseResolver::sensorOnBody(const SensorConfig& sensor, const Eigen::Isometry3d& T_W_B,
+                                        double gap, const std::string& body_frame,
                                         const std::string& sensor_frame,
                                         const ros::Time& stamp) const {
-  Eigen::Isometry3d T_B_S = config_.parameterExtrinsics();
-  if (config_.extrinsics == ExtrinsicsSource::kTf) {
+  Eigen::Isometry3d T_B_S = sensor.parameterExtrinsics();
+  if (sensor.extrinsics == ExtrinsicsSource::kTf) {
     const TransformAtStamp extrinsics = tree_.at(body_frame, sensor_frame, stamp, kAnyGap);
     if (extrinsics.lookup != PoseLookup::kFound) {
       const bool pending = extrinsics.lookup == PoseLookup::kNotYet;
@@ -159,12 +160,13 @@ ResolvedPose PoseResolver::sensorOnBody(const Eigen::Isometry3d& T_W_B, double g
   return pose;
 }
 
-ResolvedPose PoseResolver::bodyFromTf(const std::string& sensor_frame,
+ResolvedPose PoseResolver::bodyFromTf(const SensorConfig& sensor, const std::string& sensor_frame,
                                       const ros::Time& stamp) const {
   const TransformAtStamp body =
       tree_.at(config_.map_frame, config_.body_frame, stamp, config_.max_pose_gap);
   if (body.lookup != PoseLookup::kFound) return withoutPose(body.lookup, body.why);
-  return sensorOnBody(body.T_target_source, body.gap, config_.body_frame, sensor_frame, stamp);
+  return sensorOnBody(sensor, body.T_target_source, body.gap, config_.body_frame, sensor_frame,
+                      stamp);
 }
 
 ResolvedPose PoseResolver::sensorFromTf(const std::string& sensor_frame,

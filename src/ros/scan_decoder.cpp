@@ -15,12 +15,12 @@ ScanReport ScanDecoder::integrate(const SynchronizedScan& scan, Mapper* mapper) 
     if (const auto* image = std::get_if<sensor_msgs::ImageConstPtr>(&scan.message)) {
       const DecodedDepthImage decoded = decodeDepthImage(*image);
       decode_time_ms_ = millisecondsSince(start);
-      return mapper->integrate(decoded.view, scan.intrinsics, scan.pose);
+      return mapper->integrate(decoded.view, scan.intrinsics, scan.pose, scan.sensor);
     }
     const auto& cloud = std::get<sensor_msgs::PointCloud2ConstPtr>(scan.message);
-    decodePointCloud(*cloud, mapper->config().pixel_step, &points_);
+    decodePointCloud(*cloud, mapper->config().readingOf(scan.sensor).pixel_step, &points_);
     decode_time_ms_ = millisecondsSince(start);
-    return mapper->integrate(points_, scan.pose);
+    return mapper->integrate(points_, scan.pose, scan.sensor);
   } catch (const std::invalid_argument& error) {
     throw InputError(DropReason::kBadPose, error.what());
   }

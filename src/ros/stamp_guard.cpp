@@ -30,4 +30,10 @@ StampVerdict StampGuard::judge(const ros::Time& stamp, const ros::Time& other) {
 
 void StampGuard::clear() { *this = StampGuard(); }
 
+Drop strayStamp(const std::string& what, const ros::Time& newest, const ros::Time& stamp) {
+  return {DropReason::kStaleStamp, what + " alone is stamped " +
+                                       std::to_string(secondsBetween(newest, stamp)) +
+                                       " s after the one before"};
+}
+
 }  // namespace fiimap

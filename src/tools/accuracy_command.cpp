@@ -45,6 +45,7 @@ int evaluateAccuracy(const AccuracyOptions& options) {
   if (options.held_out_step < 1) throw std::invalid_argument("--held-out-step must be at least 1");
   const std::vector<HeldOutSplit> splits = splitsFrom(options);
   const EvaluationInput input(options.input);
+  input.requireOneSensor();
   std::vector<double> resolutions = options.resolutions;
   if (resolutions.empty()) resolutions = {input.mapper().resolution};
   CrossValidation validation(input.mapper(), resolutions, splits, options.held_out_step,

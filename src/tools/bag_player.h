@@ -2,6 +2,9 @@
 
 #include <rosbag/bag.h>
 
+#include <string>
+#include <vector>
+
 #include "bag_topics.h"
 #include "fiimap/ros/scan_counters.h"
 #include "fiimap/ros/scan_synchronizer.h"
@@ -21,9 +24,14 @@ class BagPlayer {
   void play(ScanListener* listener, ScanCounters* counters);
 
  private:
+  void addInfo(const sensor_msgs::CameraInfoConstPtr& info, const std::string& topic,
+               ScanSynchronizer* synchronizer) const;
+
   const rosbag::Bag* bag_;
-  BagTopics topics_;
   NodeConfig config_;
+  std::string pose_topic_;
+  std::vector<std::string> scan_topics_;  // by sensor
+  std::vector<std::string> info_topics_;  // by sensor; empty where none are needed
 };
 
 }  // namespace fiimap

@@ -9,6 +9,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -28,10 +29,12 @@ std::set<std::string> topicsOfType(const rosbag::Bag& bag) {
   return topics;
 }
 
-/// The topic that the user named, or the only one of the type.
+/// The topic that the user named, that the node would subscribe to, or the only one of the type.
 std::string choose(const std::string& named, const std::set<std::string>& candidates,
-                   const std::string& parameter, const std::string& what) {
+                   const std::string& parameter, const std::string& what,
+                   const std::string& of_node = "") {
   if (!named.empty()) return named;
+  if (candidates.count(of_node) != 0) return of_node;
   if (candidates.size() == 1) return *candidates.begin();
   std::string list;
   for (const std::string& topic : candidates) list += " " + topic;
@@ -88,38 +91,85 @@ void choosePoses(const rosbag::Bag& bag, bool frame_is_open, const std::string& 
   if (!frame.empty()) config->map_frame = frame;
 }
 
+/// The topics of the bag that may be a sensor's.
+struct Candidates {
+  ImageTopics images;
+  std::set<std::string> infos, clouds;
+};
+
+void chooseScans(const Candidates& candidates, const SensorConfig& sensor,
+                 SensorBagTopics* topics) {
+  const std::string prefix = sensor.prefix();
+  // Without a name the node's topics are common ones, which say nothing of a recording's.
+  const std::string of_node = prefix.empty() ? "" : '/' + prefix;
+  const std::string& others = candidates.images.others;
+  if (sensor.sensor == SensorKind::kDepth) {
+    std::string what = "sensor_msgs/Image of encoding 16UC1, mono16 or 32FC1";
+    if (candidates.images.depth.empty() && !others.empty()) what += ", only" + others;
+    topics->depth_topic = choose(topics->depth_topic, candidates.images.depth,
+                                 prefix + "depth_topic", what, of_node + "depth/image");
+    topics->camera_info_topic =
+        choose(topics->camera_info_topic, candidates.infos, prefix + "camera_info_topic",
+               "sensor_msgs/CameraInfo", of_node + "depth/camera_info");
+  } else {
+    std::string what = "sensor_msgs/PointCloud2";
+    if (!others.empty()) what += " and no depth images, only" + others;
+    topics->points_topic = choose(topics->points_topic, candidates.clouds, prefix + "points_topic",
+                                  what, of_node + "points");
+  }
+}
+
+/// Two sensors do not write one topic.
+void requireOwnTopics(const std::vector<SensorConfig>& sensors, const BagTopics& topics) {
+  std::map<std::string, std::string> reader;  // names of sensors by topic
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string& topic = topics.sensors[i].scans(sensors[i].sensor);
+    const auto [first, is_new] = reader.emplace(topic, sensors[i].name);
+    if (is_new) continue;
+    const bool depth = sensors[i].sensor == SensorKind::kDepth;
+    throw std::invalid_argument("the sensors " + first->second + " and " + sensors[i].name +
+                                " would both be read from " + topic + "; name another with --set " +
+                                sensors[i].prefix() + (depth ? "depth" : "points") +
+                                "_topic=TOPIC");
+  }
+}
+
 }  // namespace
 
-std::vector<Parameter> BagTopics::parameters() {
-  return {
-      textParameter("depth_topic", &depth_topic, "topic of the depth images in the bag"),
-      textParameter("camera_info_topic", &camera_info_topic, "topic of their intrinsics"),
-      textParameter("points_topic", &points_topic, "topic of the clouds in the bag"),
-      textParameter("pose_topic", &pose_topic, "topic of the poses in the bag"),
-  };
+std::vector<Parameter> BagTopics::parameters(const NodeConfig& config) {
+  const std::vector<SensorConfig> all = config.allSensors();
+  sensors.resize(all.size());
+  std::vector<Parameter> list;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string prefix = all[i].prefix();
+    SensorBagTopics& topics = sensors[i];
+    list.push_back(textParameter(prefix + "depth_topic", &topics.depth_topic,
+                                 "topic of the depth images in the bag"));
+    list.push_back(textParameter(prefix + "camera_info_topic", &topics.camera_info_topic,
+                                 "topic of their intrinsics"));
+    list.push_back(textParameter(prefix + "points_topic", &topics.points_topic,
+                                 "topic of the clouds in the bag"));
+  }
+  list.push_back(textParameter("pose_topic", &pose_topic, "topic of the poses in the bag"));
+  return list;
 }
 
 BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, BagTopics topics,
                        NodeConfig* config) {
-  const ImageTopics images = imageTopicsIn(bag);
-  const auto infos = topicsOfType<sensor_msgs::CameraInfo>(bag);
-  if (settings.count("sensor") == 0) {
-    const bool has_depth = topics.points_topic.empty() && !infos.empty() &&
-                           (!images.depth.empty() || !topics.depth_topic.empty());
+  const Candidates candidates = {imageTopicsIn(bag), topicsOfType<sensor_msgs::CameraInfo>(bag),
+                                 topicsOfType<sensor_msgs::PointCloud2>(bag)};
+  topics.sensors.resize(config->allSensors().size());
+  if (config->sensors.empty() && settings.count("sensor") == 0) {
+    const SensorBagTopics& named = topics.sensors.front();
+    const bool has_depth = named.points_topic.empty() && !candidates.infos.empty() &&
+                           (!candidates.images.depth.empty() || !named.depth_topic.empty());
     config->sensor = has_depth ? SensorKind::kDepth : SensorKind::kPoints;
   }
-  if (config->sensor == SensorKind::kDepth) {
-    std::string what = "sensor_msgs/Image of encoding 16UC1, mono16 or 32FC1";
-    if (images.depth.empty() && !images.others.empty()) what += ", only" + images.others;
-    topics.depth_topic = choose(topics.depth_topic, images.depth, "depth_topic", what);
-    topics.camera_info_topic =
-        choose(topics.camera_info_topic, infos, "camera_info_topic", "sensor_msgs/CameraInfo");
-  } else {
-    std::string what = "sensor_msgs/PointCloud2";
-    if (!images.others.empty()) what += " and no depth images, only" + images.others;
-    topics.points_topic = choose(topics.points_topic, topicsOfType<sensor_msgs::PointCloud2>(bag),
-                                 "points_topic", what);
+  const std::vector<SensorConfig> sensors = config->allSensors();
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    chooseScans(candidates, sensors[i], &topics.sensors[i]);
   }
+  requireOwnTopics(sensors, topics);
 
   if (settings.count("pose_source") == 0) config->pose_source = poseSourceIn(bag);
   const bool frame_is_open = settings.count("map_frame") == 0;

@@ -31,6 +31,7 @@ VoxelBox boxFor(const CompareOptions& options, const EvaluationInput& input) {
 
 int compareMethods(const CompareOptions& options) {
   const EvaluationInput input(options.input);
+  input.requireOneSensor();
   check(options, input.mapper());
   UpdateComparison comparison(input.mapper(), options.methods, boxFor(options, input));
   comparison.play(input);

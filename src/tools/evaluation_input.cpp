@@ -33,16 +33,26 @@ ParameterMap EvaluationInput::readSettings() {
     }
     given[setting.substr(0, equals)] = setting.substr(equals + 1);
   }
-  ParameterMap map_settings;
-  for (const std::string& name : applyParameters(given, topics_.parameters())) {
-    map_settings[name] = given[name];
+  ParameterMap of_topics;
+  for (const std::string& name : configure(given, &mapper_, &node_)) {
+    const auto value = given.find(name);  // not that of a namespace
+    of_topics[name] = value == given.end() ? "" : value->second;
   }
-  const std::vector<std::string> unknown = configure(map_settings, &mapper_, &node_);
+  const std::vector<std::string> unknown = applyParameters(of_topics, topics_.parameters(node_));
   if (!unknown.empty()) {
     throw std::invalid_argument("unknown parameter " + unknown.front() +
-                                ": fiimap_eval parameters lists all");
+                                ": fiimap_eval parameters lists all" +
+                                hintForUnknown(unknown.front()));
   }
   return given;
+}
+
+void EvaluationInput::requireOneSensor() const {
+  if (node_.sensors.empty()) return;
+  throw std::invalid_argument(
+      "parameter sensors: several sensors go into the map of run and health alone; leave it out "
+      "and "
+      "name the topic of one");
 }
 
 void EvaluationInput::writeJson(nlohmann::json figures) const {
@@ -51,7 +61,8 @@ void EvaluationInput::writeJson(nlohmann::json figures) const {
   MapperConfig mapper = mapper_;
   NodeConfig node = node_;
   BagTopics topics = topics_;
-  for (const auto& list : {mapperParameters(&mapper), nodeParameters(&node), topics.parameters()}) {
+  for (const auto& list : {mapperParameters(&mapper), nodeParameters(&node),
+                           sensorParameters(&mapper, &node), topics.parameters(node)}) {
     for (const Parameter& parameter : list) figures["parameters"][parameter.name] = parameter.get();
   }
   writeWhole(options_.json, figures.dump(2) + '\n');

@@ -32,6 +32,10 @@ class EvaluationInput {
   const NodeConfig& node() const { return node_; }
   const BagTopics& topics() const { return topics_; }
 
+  /// For what compares with maps or scans of one sensor.
+  /// \throws std::invalid_argument when there are several.
+  void requireOneSensor() const;
+
   /// Writes figures, completed by the bag's name and all parameters, where --json says.
   void writeJson(nlohmann::json figures) const;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fiimap/mapper_config.h"
 #include "fiimap/ros/scan_synchronizer.h"
 
@@ -18,9 +20,13 @@ class ReadingProjector {
   ReadingCount project(const SynchronizedScan& scan, RangeData* range);
 
  private:
+  struct Projectors {
+    DepthProjector depth;
+    PointProjector points;
+  };
+
   int pixel_step_;
-  DepthProjector depth_projector_;
-  PointProjector point_projector_;
+  std::vector<Projectors> projectors_;  // by sensor
   PointScan points_;
 };
 

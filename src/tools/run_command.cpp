@@ -98,6 +98,9 @@ int run(const RunOptions& options) {
   std::cout << options.input.bag << '\n' << report.text();
   nlohmann::json json = report.json();
   json["warnings"] = builder.warnings();
+  for (std::size_t i = 0; i < input.node().sensors.size(); ++i) {
+    json["sensors"][input.node().sensors[i].name] = toJson(builder.counters().sensors[i]);
+  }
   if (!options.save.empty()) save(builder.snapshot(), options.save);
   input.writeJson(json);
   return report.mismatches() == 0 ? 0 : 1;

@@ -22,6 +22,7 @@ nlohmann::json toJson(const ScanCounters& counters) {
 void ScanEvaluator::play(const EvaluationInput& input) {
   BagPlayer player(input.bag(), input.topics(), input.node());
   total_ = player.scans();
+  sensors_ = input.node().allSensors();
   ProgressBar progress(total_);
   progress_ = &progress;
   player.play(this, &counters_);
@@ -45,16 +46,18 @@ void ScanEvaluator::printWarnings() const {
 void ScanEvaluator::onScan(const SynchronizedScan& scan) {
   try {
     addScan(scan, counters_.integrated + counters_.dropped());
-    ++counters_.integrated;
+    counters_.countIntegrated(scan.sensor);
   } catch (const InputError& error) {
-    onDrop(error.drop());
+    onDrop(error.drop(), scan.sensor);
   }
   progress_->show(counters_.received);
 }
 
-void ScanEvaluator::onDrop(const Drop& drop) {
-  counters_.countDrop(drop);
-  warnOnce(drop.text());
+void ScanEvaluator::onDrop(const Drop& drop, std::size_t sensor) {
+  Drop named = drop;
+  named.sensor = sensors_.at(sensor).name;
+  counters_.countDrop(named, sensor);
+  warnOnce(named.text(), named.sensor + nameOf(named.reason));
 }
 
 void ScanEvaluator::onTimeJump(const std::string& what) {
@@ -62,9 +65,12 @@ void ScanEvaluator::onTimeJump(const std::string& what) {
   forget();
 }
 
-/// The kind of trouble is the text up to its colon.
 void ScanEvaluator::warnOnce(const std::string& text) {
-  if (warned_.insert(text.substr(0, text.find(':'))).second) warnings_.push_back(text);
+  warnOnce(text, text.substr(0, text.find(':')));
+}
+
+void ScanEvaluator::warnOnce(const std::string& text, const std::string& kind) {
+  if (warned_.insert(kind).second) warnings_.push_back(text);
 }
 
 }  // namespace fiimap

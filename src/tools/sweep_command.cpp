@@ -150,6 +150,7 @@ int sweepInflation(const SweepOptions& options) {
   std::vector<std::string> methods = options.methods;
   if (methods.empty()) methods.assign(std::begin(bench::kInflations), std::end(bench::kInflations));
   const EvaluationInput input(options.input);
+  input.requireOneSensor();
   StepCollector collector(input.mapper(), options.resolutions);
   collector.play(input);
   collector.printWarnings();

@@ -114,6 +114,7 @@ int evaluateTruth(const TruthOptions& options) {
   if (options.scene.empty()) throw std::invalid_argument("truth needs --scene FILE");
   if (options.snapshots < 1) throw std::invalid_argument("--snapshots must be at least 1");
   const EvaluationInput input(options.input);
+  input.requireOneSensor();
   if (!options.voxels.empty()) checkWritable(options.voxels);
   std::vector<double> resolutions = options.resolutions;
   if (resolutions.empty()) resolutions = {input.mapper().resolution};

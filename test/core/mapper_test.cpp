@@ -1,6 +1,9 @@
 #include "fiimap/mapper.h"
 
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +18,7 @@ using test::kResolution;
 using test::poseAt;
 using test::seeAnObstacle;
 using test::smallConfig;
+using test::State;
 
 TEST(MapperTest, WindowHasTheConfiguredSizeAroundTheVehicle) {
   Mapper mapper(smallConfig());
@@ -218,6 +222,44 @@ TEST(MapperTest, ChangesItsInflationAtOnce) {
   EXPECT_EQ(mapper.grid().count(Plane::kInflated), 25);
   mapper.setInflation(0.0, ElementShape::kBall);
   EXPECT_EQ(mapper.grid().count(Plane::kInflated), 1);
+}
+
+TEST(MapperTest, EachOfSeveralSensorsIsReadAsItIsConfigured) {
+  MapperConfig config = smallConfig();
+  config.sensors.assign(2, config);
+  config.sensors[1].max_ray_length = 1.5;
+  config.sensors[1].beyond_max_depth = ReadingPolicy::kIgnore;
+  const PointScan scan = {{{2.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}};
+  const ScanPose pose = poseAt({0.1, 0.1, 0.1});
+  for (std::size_t sensor = 0; sensor < config.sensors.size(); ++sensor) {
+    Mapper several(config), one(config.withOnly(sensor));
+    for (int i = 0; i < 3; ++i) {
+      several.integrate(scan, pose, sensor);
+      one.integrate(scan, pose);
+    }
+    EXPECT_EQ(several.grid().count(Plane::kOccupied), sensor == 0 ? 2 : 1);
+    EXPECT_TRUE(State(&several) == State(&one)) << sensor;
+  }
+  EXPECT_THROW(Mapper(config).integrate(scan, pose, 2), std::out_of_range);
+}
+
+TEST(MapperTest, ImagesOfSeveralSensorsToo) {
+  MapperConfig config = smallConfig();
+  config.border_margin = 0;
+  config.sensors.assign(2, config);
+  config.sensors[1].depth_scale = 0.0005;
+  const std::vector<std::uint16_t> pixels(8 * 8, 1000);  // upwards, 1 m or 0.5 m
+  const DepthImage image = {pixels.data(), DepthImage::Format::kUint16, 8, 8, 16};
+  const PinholeIntrinsics intrinsics = {8.0, 8.0, 4.0, 4.0};
+  for (std::size_t sensor = 0; sensor < config.sensors.size(); ++sensor) {
+    Mapper several(config), one(config.withOnly(sensor));
+    for (int i = 0; i < 3; ++i) {
+      several.integrate(image, intrinsics, poseAt({0.1, 0.1, 0.1}), sensor);
+      one.integrate(image, intrinsics, poseAt({0.1, 0.1, 0.1}));
+    }
+    EXPECT_GT(several.grid().count(Plane::kOccupied), 0);
+    EXPECT_TRUE(State(&several) == State(&one)) << sensor;
+  }
 }
 
 }  // namespace

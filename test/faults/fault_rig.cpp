@@ -107,8 +107,8 @@ FaultRig::FaultRig(RigInputs inputs, double clock) : inputs_(inputs), clock_(clo
   ros::Time::setNow(ros::Time(clock_));
   const bool from_tf = inputs == RigInputs::kTf;
   const bool points = inputs == RigInputs::kPoints;
-  topics_ = {points ? "points" : "depth/image", points ? "" : "depth/camera_info",
-             from_tf ? "/tf" : "odom"};
+  topics_.sensors = {{"", points ? "points" : "depth/image", points ? "" : "depth/camera_info"}};
+  topics_.poses = from_tf ? "/tf" : "odom";
   handle_ = std::make_shared<MapHandle>("rig");
   MapObserver* const observer = this;
   mapping_ = std::make_unique<MappingThread>(mapperConfig(), nodeConfig(inputs), handle_, observer);
@@ -245,8 +245,8 @@ void FaultRig::release() {
 
 RigState FaultRig::state() const {
   RigState state;
-  state.totals.scans = state.sent = sent_;
-  state.totals.camera_infos = infos_;
+  state.sent = sent_;
+  state.totals.sensors = {{sent_, infos_}};
   state.totals.poses = poses_;
   state.totals.counters = mapping_->counters();
   state.snapshot = handle_->latest();

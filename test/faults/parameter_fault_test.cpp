@@ -93,6 +93,31 @@ Settings wrongOrders() {
   };
 }
 
+Settings sensorNames() {
+  Settings settings;
+  for (const std::string value :
+       {"1st", "front-left", "front /left", "a ~b", "a b a", "front max_depth", "sensors"}) {
+    settings.push_back({{"sensors", value}});
+  }
+  return settings;
+}
+
+Settings valuesOfASensor() {
+  Settings settings = {
+      {{"front/max_depth", "x"}},
+      {{"front/max_depth", ""}},
+      {{"front/max_depth", "1001"}},
+      {{"front/sensor", "sonar"}},
+      {{"front/pixel_step", "-1"}},
+      {{"front/extrinsic_rotation", "0 0 0 2"}},
+      {{"front/extrinsic_translation", "1 2"}},
+      {{"front/min_depth", "4"}, {"front/max_depth", "4"}},
+      {{"front/min_ray_length", "4"}, {"max_ray_length", "3"}},
+  };
+  for (Setting& setting : settings) setting.push_back({"sensors", "front"});
+  return settings;
+}
+
 /// Settings by the id of their row. All of a row must be refused, but for those named as accepted.
 const std::map<std::string, Settings>& settings() {
   static const std::map<std::string, Settings> all = {
@@ -126,6 +151,11 @@ const std::map<std::string, Settings>& settings() {
       {"parameter_body_frame",
        {{{"body_frame", ""}, {"pose_source", "pose"}},
         {{"body_frame", ""}, {"pose_source", "tf"}, {"extrinsics", "parameter"}}}},
+      {"parameter_sensor_name", sensorNames()},
+      {"parameter_of_sensor", valuesOfASensor()},
+      {"parameter_unknown_of_sensor",
+       {{{"front/max_dpeth", "1"}, {"sensors", "front"}},
+        {{"front/resolution", "1"}, {"sensors", "front"}}}},
       {"parameter_unknown", {{{"resolutoin", "0.1"}}, {{"", "1"}}}},
   };
   return all;
@@ -180,7 +210,7 @@ TEST_P(ParameterFaultTest, IsRefusedWithItsNameAndWhatIsAllowed) {
   for (const Setting& setting : tried) {
     if (GetParam().id == "parameter_at_its_limits") {
       expectInRange(setting);
-    } else if (GetParam().id == "parameter_unknown") {
+    } else if (GetParam().id.find("parameter_unknown") == 0) {
       expectUnknown(setting);
     } else {
       expectRefused(setting);

@@ -65,10 +65,10 @@ class ScanFeed : public ScanListener {
               "a reading is of no kind");
       ++counters_.integrated;
     } catch (const InputError& error) {
-      onDrop(error.drop());
+      onDrop(error.drop(), scan.sensor);
     }
   }
-  void onDrop(const Drop& drop) override {
+  void onDrop(const Drop& drop, std::size_t) override {
     require(!drop.text().empty(), "a scan is dropped without a reason");
     counters_.countDrop(drop);
   }

@@ -92,7 +92,7 @@ class BagTopicsTest : public testing::Test {
     bag.close();
     bag.open(file_, rosbag::bagmode::Read);
     NodeConfig config;
-    return chooseTopics(bag, {}, BagTopics(), &config).depth_topic;
+    return chooseTopics(bag, {}, BagTopics(), &config).sensors.front().depth_topic;
   }
 
  private:
@@ -112,6 +112,66 @@ TEST_F(BagTopicsTest, SaysWhatItFoundInsteadOfDepthImages) {
   } catch (const std::invalid_argument& error) {
     for (const std::string part : {"no depth images", "/color", "rgb8"}) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
+class SensorTopicsTest : public testing::Test {
+ protected:
+  SensorTopicsTest() : file_(testing::TempDir() + "sensor_topics_test.bag") {
+    config_.sensors.resize(2);
+    config_.sensors[0].name = "front";
+    config_.sensors[1].name = "left";
+  }
+  ~SensorTopicsTest() override { std::remove(file_.c_str()); }
+
+  BagTopics chosen(const std::vector<std::string>& images, const std::vector<std::string>& infos,
+                   const ParameterMap& named = {}) {
+    const ros::Time stamp(1.0);
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    sensor_msgs::Image image;
+    image.encoding = "16UC1";
+    for (const std::string& topic : images) bag.write(topic, stamp, image);
+    for (const std::string& topic : infos) bag.write(topic, stamp, sensor_msgs::CameraInfo());
+    bag.write("/odom", stamp, nav_msgs::Odometry());
+    bag.close();
+    bag.open(file_, rosbag::bagmode::Read);
+    BagTopics topics;
+    EXPECT_TRUE(applyParameters(named, topics.parameters(config_)).empty());
+    return chooseTopics(bag, {}, topics, &config_);
+  }
+
+  NodeConfig config_;
+
+ private:
+  std::string file_;
+};
+
+TEST_F(SensorTopicsTest, AreThoseOfTheNode) {
+  const BagTopics topics = chosen({"/front/depth/image", "/left/depth/image", "/rear/depth/image"},
+                                  {"/front/depth/camera_info", "/left/depth/camera_info"});
+  EXPECT_EQ(topics.sensors[0].depth_topic, "/front/depth/image");
+  EXPECT_EQ(topics.sensors[1].depth_topic, "/left/depth/image");
+  EXPECT_EQ(topics.sensors[0].camera_info_topic, "/front/depth/camera_info");
+  EXPECT_EQ(topics.sensors[1].camera_info_topic, "/left/depth/camera_info");
+}
+
+TEST_F(SensorTopicsTest, OrThoseThatAreNamedForEach) {
+  const BagTopics topics =
+      chosen({"/a", "/b"}, {"/info"}, {{"front/depth_topic", "/b"}, {"left/depth_topic", "/a"}});
+  EXPECT_EQ(topics.sensors[0].depth_topic, "/b");
+  EXPECT_EQ(topics.sensors[1].depth_topic, "/a");
+  for (const auto& sensor : topics.sensors) EXPECT_EQ(sensor.camera_info_topic, "/info");
+}
+
+TEST_F(SensorTopicsTest, OneTopicIsNotReadTwice) {
+  for (const auto& images : {std::vector<std::string>{"/a"}, {"/a", "/b"}}) {
+    try {
+      chosen(images, {"/info"});
+      ADD_FAILURE() << "accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("/depth_topic=TOPIC"), std::string::npos)
+          << error.what();
     }
   }
 }

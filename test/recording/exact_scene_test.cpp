@@ -49,7 +49,7 @@ class SceneListener : public ScanListener {
     time_ = scan.pose.stamp_ns * kNanosecond - scene_.startTime();
     noteSurface(scan);
   }
-  void onDrop(const Drop& drop) override { FAIL() << drop.text(); }
+  void onDrop(const Drop& drop, std::size_t) override { FAIL() << drop.text(); }
   void onTimeJump(const std::string& what) override { FAIL() << what; }
   void onWarning(const std::string& text) override { FAIL() << text; }
 

@@ -32,10 +32,21 @@ TEST(InputQueueTest, TheOldestScansGiveWay) {
   std::vector<int> done;
   for (int i = 0; i < 5; ++i) queue.pushScan([&done, i] { done.push_back(i); });
   const InputQueue::Batch batch = queue.take(kNoWait);
-  EXPECT_EQ(batch.displaced_scans, 3u);
+  EXPECT_EQ(batch.displaced_scans, std::vector<std::size_t>{3});
   EXPECT_EQ(batch.displaced_others, 0u);
   EXPECT_EQ(run(batch, &done), (std::vector<int>{3, 4}));
-  EXPECT_EQ(queue.take(kNoWait).displaced_scans, 0u);
+  EXPECT_EQ(queue.take(kNoWait).displaced_scans, std::vector<std::size_t>{0});
+}
+
+TEST(InputQueueTest, ScansOfOneSensorDoNotDisplaceThoseOfAnother) {
+  InputQueue queue(2, 3);
+  std::vector<int> done;
+  queue.pushScan([&done] { done.push_back(100); }, 2);
+  for (int i = 0; i < 5; ++i) queue.pushScan([&done, i] { done.push_back(i); }, 0);
+  queue.pushOther([&done] { done.push_back(200); });
+  const InputQueue::Batch batch = queue.take(kNoWait);
+  EXPECT_EQ(batch.displaced_scans, (std::vector<std::size_t>{3, 0, 0}));
+  EXPECT_EQ(run(batch, &done), (std::vector<int>{100, 3, 4, 200}));
 }
 
 TEST(InputQueueTest, OnlyDataGivesWayAndIsCounted) {
@@ -47,7 +58,7 @@ TEST(InputQueueTest, OnlyDataGivesWayAndIsCounted) {
   queue.pushControl([&done] { done.push_back(-2); });
   const InputQueue::Batch batch = queue.take(kNoWait);
   EXPECT_EQ(batch.displaced_others, 3u);
-  EXPECT_EQ(batch.displaced_scans, 0u);
+  EXPECT_EQ(batch.displaced_scans, std::vector<std::size_t>{0});
   run(batch, &done);
   ASSERT_EQ(done.size(), InputQueue::kMaxOthers + 2);
   EXPECT_EQ(done.front(), -1);

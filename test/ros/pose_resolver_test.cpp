@@ -38,6 +38,18 @@ tf2_msgs::TFMessage tf(const geometry_msgs::TransformStamped& transform) {
   return message;
 }
 
+/// Of the one sensor that its configuration describes.
+class Resolver : public PoseResolver {
+ public:
+  explicit Resolver(const NodeConfig& config) : PoseResolver(config), sensor_(config) {}
+  ResolvedPose at(const std::string& frame, const ros::Time& stamp) const {
+    return PoseResolver::at(sensor_, frame, stamp);
+  }
+
+ private:
+  SensorConfig sensor_;
+};
+
 /// Camera 0.5 m in front of the body.
 void addCamera(PoseResolver* resolver, double yaw = 0.0) {
   resolver->addTf(tf(transformAt(0.0, 0.5, yaw, "body", "camera")), true);
@@ -66,13 +78,13 @@ void expectMissing(const ResolvedPose& pose, State state, DropReason reason) {
 }
 
 TEST(PoseResolverTest, PutsTheSensorOnTheBodyByParameter) {
-  PoseResolver resolver(parameterExtrinsics());
+  Resolver resolver(parameterExtrinsics());
   resolver.add(odometryAt(0.0, 2.0, kQuarterTurn));
   expectPose(resolver.at("any", at(0.0)), {2.0, 0.5, 0.0}, {2.0, 0.0, 0.0});
 }
 
 TEST(PoseResolverTest, PutsTheSensorOnTheBodyByTf) {
-  PoseResolver resolver{NodeConfig()};
+  Resolver resolver{NodeConfig()};
   resolver.add(odometryAt(0.0, 2.0, kQuarterTurn));
   expectMissing(resolver.at("camera", at(0.0)), State::kPending, DropReason::kNoExtrinsics);
   addCamera(&resolver);
@@ -82,14 +94,14 @@ TEST(PoseResolverTest, PutsTheSensorOnTheBodyByTf) {
 TEST(PoseResolverTest, TakesPoseAndTransformMessages) {
   NodeConfig config;
   config.pose_source = PoseSource::kTransform;
-  PoseResolver by_transform(config);
+  Resolver by_transform(config);
   by_transform.add(transformAt(0.0, 2.0));
   addCamera(&by_transform);
   expectPose(by_transform.at("camera", at(0.0)), {2.5, 0.0, 0.0}, {2.0, 0.0, 0.0});
 
   config.pose_source = PoseSource::kPose;
   config.body_frame = "body";
-  PoseResolver by_pose(config);
+  Resolver by_pose(config);
   by_pose.add(poseAt(0.0, 2.0));
   addCamera(&by_pose);
   expectPose(by_pose.at("camera", at(0.0)), {2.5, 0.0, 0.0}, {2.0, 0.0, 0.0});
@@ -98,7 +110,7 @@ TEST(PoseResolverTest, TakesPoseAndTransformMessages) {
 TEST(PoseResolverTest, TheBodyFrameParameterWinsOverTheMessage) {
   NodeConfig config;
   config.body_frame = "imu";
-  PoseResolver resolver(config);
+  Resolver resolver(config);
   resolver.add(odometryAt(0.0, 2.0));
   resolver.addTf(tf(transformAt(0.0, 0.25, 0.0, "imu", "camera")), true);
   expectPose(resolver.at("camera", at(0.0)), {2.25, 0.0, 0.0}, {2.0, 0.0, 0.0});
@@ -109,7 +121,7 @@ TEST(PoseResolverTest, FollowsTfWithAndWithoutABody) {
   config.pose_source = PoseSource::kTf;
   for (const std::string body : {"", "body"}) {
     config.body_frame = body;
-    PoseResolver resolver(config);
+    Resolver resolver(config);
     addCamera(&resolver);
     expectMissing(resolver.at("camera", at(0.0)), State::kPending, DropReason::kPoseTimeout);
     resolver.addTf(tf(transformAt(0.0, 2.0)), false);
@@ -125,13 +137,13 @@ TEST(PoseResolverTest, FollowsTheBodyInTfWithExtrinsicsByParameter) {
   NodeConfig config = parameterExtrinsics();
   config.pose_source = PoseSource::kTf;
   config.body_frame = "body";
-  PoseResolver resolver(config);
+  Resolver resolver(config);
   resolver.addTf(tf(transformAt(0.0, 2.0)), false);
   expectPose(resolver.at("not in tf", at(0.0)), {2.5, 0.0, 0.0}, {2.0, 0.0, 0.0});
 }
 
 TEST(PoseResolverTest, SaysWhyThereIsNoPose) {
-  PoseResolver resolver(parameterExtrinsics());
+  Resolver resolver(parameterExtrinsics());
   expectMissing(resolver.at("s", at(0.0)), State::kPending, DropReason::kPoseTimeout);
   resolver.add(odometryAt(0.0, 0.0));
   resolver.add(odometryAt(0.2, 0.0));
@@ -141,7 +153,7 @@ TEST(PoseResolverTest, SaysWhyThereIsNoPose) {
 }
 
 TEST(PoseResolverTest, BlamesRefusedPosesUntilAGoodOneComes) {
-  PoseResolver resolver(parameterExtrinsics());
+  Resolver resolver(parameterExtrinsics());
   resolver.add(transformAt(0.0, 0.0, 0.0, "odom"));
   expectMissing(resolver.at("s", at(0.0)), State::kPending, DropReason::kFrameMismatch);
   resolver.add(odometryAt(0.0, std::nan("")));
@@ -152,19 +164,29 @@ TEST(PoseResolverTest, BlamesRefusedPosesUntilAGoodOneComes) {
 }
 
 TEST(PoseResolverTest, TakesFrameIdsWithASlash) {
-  PoseResolver resolver(parameterExtrinsics());
+  Resolver resolver(parameterExtrinsics());
   resolver.add(transformAt(0.0, 1.0, 0.0, "/world"));
   EXPECT_EQ(resolver.at("s", at(0.0)).state, State::kFound);
 }
 
 TEST(PoseResolverTest, KnowsWhetherTheSensorIsRotatedOnTheBody) {
-  PoseResolver straight{NodeConfig()}, turned{NodeConfig()};
+  Resolver straight{NodeConfig()}, turned{NodeConfig()};
   addCamera(&straight);
   addCamera(&turned, kQuarterTurn);
-  for (PoseResolver* resolver : {&straight, &turned}) {
+  for (Resolver* resolver : {&straight, &turned}) {
     resolver->add(odometryAt(0.0, 0.0, kQuarterTurn));
     EXPECT_EQ(resolver->at("camera", at(0.0)).sensor_axes_like_body, resolver == &straight);
   }
+}
+
+TEST(PoseResolverTest, EachSensorHasItsOwnPlaceOnTheBody) {
+  SensorConfig left = parameterExtrinsics(), from_tf;
+  left.extrinsic_translation = {0.0, 0.25, 0.0};
+  PoseResolver resolver(parameterExtrinsics());
+  resolver.add(odometryAt(0.0, 2.0, kQuarterTurn));
+  addCamera(&resolver);
+  expectPose(resolver.at(left, "any", at(0.0)), {1.75, 0.0, 0.0}, {2.0, 0.0, 0.0});
+  expectPose(resolver.at(from_tf, "camera", at(0.0)), {2.0, 0.5, 0.0}, {2.0, 0.0, 0.0});
 }
 
 }  // namespace

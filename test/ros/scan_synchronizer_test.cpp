@@ -20,12 +20,16 @@ class Diary : public ScanListener {
     scans.push_back(scan);
     events.push_back("scan");
   }
-  void onDrop(const Drop& drop) override { events.push_back(nameOf(drop.reason)); }
+  void onDrop(const Drop& drop, std::size_t sensor) override {
+    events.push_back(nameOf(drop.reason));
+    dropped_sensors.push_back(sensor);
+  }
   void onTimeJump(const std::string&) override { events.push_back("jump"); }
   void onWarning(const std::string& text) override { warnings.push_back(text); }
 
   std::vector<SynchronizedScan> scans;
   std::vector<std::string> events;
+  std::vector<std::size_t> dropped_sensors;
   std::vector<std::string> warnings;
 };
 
@@ -47,23 +51,23 @@ class ScanSynchronizerTest : public testing::Test {
   void addPoses(double from, double to) {
     for (double seconds = from; seconds < to; seconds += 0.05) addPose(seconds);
   }
-  void addCloud(double seconds, const Moment& received = Moment()) {
+  void addCloud(double seconds, const Moment& received = Moment(), std::size_t sensor = 0) {
     const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
     cloud->header.stamp = at(seconds);
-    synchronizer_->add(ScanMessage(sensor_msgs::PointCloud2ConstPtr(cloud)), received);
+    synchronizer_->add(ScanMessage(sensor_msgs::PointCloud2ConstPtr(cloud)), received, sensor);
   }
-  void addImage(double seconds) {
+  void addImage(double seconds, std::size_t sensor = 0) {
     const auto image = boost::make_shared<sensor_msgs::Image>();
     image->header.stamp = at(seconds);
     image->header.frame_id = "camera_link";
     image->width = image->height = 4;
-    synchronizer_->add(ScanMessage(sensor_msgs::ImageConstPtr(image)));
+    synchronizer_->add(ScanMessage(sensor_msgs::ImageConstPtr(image)), Moment(), sensor);
   }
-  void addCameraInfo(std::uint32_t size = 4) {
+  void addCameraInfo(std::uint32_t size = 4, std::size_t sensor = 0) {
     const auto info = boost::make_shared<sensor_msgs::CameraInfo>();
     info->width = info->height = size;
     info->K = {4.0, 0.0, 2.0, 0.0, 4.0, 2.0, 0.0, 0.0, 1.0};
-    synchronizer_->add(sensor_msgs::CameraInfoConstPtr(info));
+    synchronizer_->add(sensor_msgs::CameraInfoConstPtr(info), sensor);
   }
 
   Diary diary_;

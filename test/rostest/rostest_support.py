@@ -67,6 +67,15 @@ def program(package, name):
     return roslib.packages.find_node(package, name)[0]
 
 
+def flat(parameters):
+    """Names and values; those of a sensor as 'front/max_depth'."""
+    for name, value in parameters.items():
+        if isinstance(value, dict):
+            yield from ((f'{name}/{key}', own) for key, own in value.items())
+        else:
+            yield name, value
+
+
 def wait_for(condition, what):
     """Waits until the condition holds and returns its value.
 
@@ -251,7 +260,7 @@ class MapTest(unittest.TestCase):
         command = [program('fiimap', 'fiimap_eval'), 'run', bag, '--save', prefix, '--json', report]
         if config:
             command += ['--config', config]
-        for name, value in parameters.items():
+        for name, value in flat(parameters):
             words = value if isinstance(value, list) else [value]
             command += ['--set', f'{name}=' + ' '.join(str(word) for word in words)]
         evaluation = self.start(*command)

@@ -34,9 +34,10 @@ const char* remedyFor(DropReason reason);
 /// One dropped scan.
 struct Drop {
   DropReason reason = DropReason::kZeroStamp;
-  std::string detail;  ///< what was found, with the values
+  std::string detail;    ///< what was found, with the values
+  std::string sensor{};  ///< name of the scan's; empty where there is one only
 
-  /// "name: detail; remedy".
+  /// "name: detail; remedy", with the sensor before the detail where it has a name.
   std::string text() const;
 };
 
@@ -47,7 +48,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(detail), reason_(reason) {}
 
   DropReason reason() const { return reason_; }
-  Drop drop() const { return {reason_, what()}; }
+  Drop drop() const { return {reason_, what(), ""}; }
 
  private:
   DropReason reason_;

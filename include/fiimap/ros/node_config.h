@@ -21,18 +21,35 @@ enum class ExtrinsicsSource {
   kParameter,  ///< extrinsic_translation and extrinsic_rotation
 };
 
-/// Settings of the inputs and outputs, beside those of the map. Names are the parameter names;
-/// units, ranges and meanings: node_config.cpp and config/default.yaml.
-struct NodeConfig {
-  std::string map_frame = "world";
+/// What a sensor is, where it is and how its stamps are understood.
+struct SensorConfig {
+  std::string name;  ///< namespace of its topics and parameters; empty: without
   SensorKind sensor = SensorKind::kDepth;
-  PoseSource pose_source = PoseSource::kOdometry;
-  std::string body_frame;
   ExtrinsicsSource extrinsics = ExtrinsicsSource::kTf;
   Eigen::Vector3d extrinsic_translation = Eigen::Vector3d::Zero();
   Eigen::Vector4d extrinsic_rotation = Eigen::Vector4d::UnitW();  // x y z w
-
   double time_offset = 0.0;
+
+  /// "name/", or nothing where there is no name.
+  std::string prefix() const { return name.empty() ? "" : name + '/'; }
+  /// Sensor to body from the parameters.
+  Eigen::Isometry3d parameterExtrinsics() const;
+  /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+  void validate() const;
+};
+
+/// Settings of the inputs and outputs, beside those of the map. Names are the parameter names;
+/// units, ranges and meanings: node_config.cpp and config/default.yaml.
+struct NodeConfig : SensorConfig {
+  static constexpr std::size_t kMaxSensors = 32;
+
+  std::string map_frame = "world";
+  PoseSource pose_source = PoseSource::kOdometry;
+  std::string body_frame;
+  /// Those of a map that has several, in the order of MapperConfig::sensors. Empty: one sensor, as
+  /// said here.
+  std::vector<SensorConfig> sensors;
+
   double max_pose_gap = 0.1;
   double max_pose_wait = 0.5;
   double pose_history = 5.0;
@@ -42,8 +59,8 @@ struct NodeConfig {
   double publish_rate = 10.0;
   std::string save_directory;
 
-  /// Sensor to body from the parameters.
-  Eigen::Isometry3d parameterExtrinsics() const;
+  /// All sensors, at least one.
+  std::vector<SensorConfig> allSensors() const;
 
   /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
   void validate() const;
@@ -52,10 +69,19 @@ struct NodeConfig {
 /// All parameters of a NodeConfig, bound to `config`, in the order of config/default.yaml.
 std::vector<Parameter> nodeParameters(NodeConfig* config);
 
-/// Sets and validates both configurations, as the nodelet and the offline tool do.
-/// \return the names in `values` that no parameter has.
+/// The parameters that each of `sensors` has of its own, under their full names: "front/max_depth".
+std::vector<Parameter> sensorParameters(MapperConfig* mapper, NodeConfig* node);
+
+/// Sets and validates both configurations, as the nodelet and the offline tool do. What is not set
+/// for one of several sensors is as set for all.
+/// \return the names in `values` that no parameter has; of a namespace that is no sensor's, its
+/// name.
 /// \throws std::invalid_argument that names the parameter, its value and what is allowed.
 std::vector<std::string> configure(const ParameterMap& values, MapperConfig* mapper,
                                    NodeConfig* node);
+
+/// What to add for a user when a name that configure() returned lies in a sensor's namespace: which
+/// parameters a sensor may have of its own. Empty for other names.
+std::string hintForUnknown(const std::string& name);
 
 }  // namespace fiimap

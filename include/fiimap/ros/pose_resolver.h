@@ -34,7 +34,7 @@ struct ResolvedPose {
   double gap = 0.0;  ///< s between the poses around the stamp
 };
 
-/// Finds where a sensor was, from the configured source of poses and extrinsics.
+/// Finds where sensors were, from the configured source of poses and extrinsics.
 /// Not thread-safe.
 class PoseResolver {
  public:
@@ -59,14 +59,17 @@ class PoseResolver {
   /// Number of transforms of TF that could not be used.
   std::uint64_t refusedTransforms() const { return tree_.refused(); }
 
-  ResolvedPose at(const std::string& sensor_frame, const ros::Time& stamp) const;
+  /// \param sensor_frame of its messages.
+  ResolvedPose at(const SensorConfig& sensor, const std::string& sensor_frame,
+                  const ros::Time& stamp) const;
 
  private:
   ResolvedPose withoutMessage(const PoseAtStamp& pose, const ros::Time& stamp) const;
-  ResolvedPose sensorOnBody(const Eigen::Isometry3d& T_W_B, double gap,
+  ResolvedPose sensorOnBody(const SensorConfig& sensor, const Eigen::Isometry3d& T_W_B, double gap,
                             const std::string& body_frame, const std::string& sensor_frame,
                             const ros::Time& stamp) const;
-  ResolvedPose bodyFromTf(const std::string& sensor_frame, const ros::Time& stamp) const;
+  ResolvedPose bodyFromTf(const SensorConfig& sensor, const std::string& sensor_frame,
+                          const ros::Time& stamp) const;
   ResolvedPose sensorFromTf(const std::string& sensor_frame, const ros::Time& stamp) const;
 
   NodeConfig config_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "fiimap/ros/drop_reason.h"
 
@@ -20,14 +22,21 @@ struct ScanCounters {
   /// Poses, transforms and camera infos that gave way to newer ones in the queue.
   std::uint64_t displaced_inputs = 0;
   std::string last_drop;  ///< text of the newest drop; empty when there was none
+  /// The scans of each sensor of a map that has several; else empty.
+  std::vector<ScanCounters> sensors;
 
-  void countDrop(const Drop& drop);
+  void countReceived(std::size_t sensor);
+  void countIntegrated(std::size_t sensor);
+  void countDrop(const Drop& drop, std::size_t sensor = 0);
   std::uint64_t dropped(DropReason reason) const {
     return dropped_by_reason[static_cast<std::size_t>(reason)];
   }
   std::uint64_t dropped() const;
   /// Whether every scan that was received is accounted for.
-  bool conserved() const { return received == integrated + dropped() + waiting; }
+  bool conserved() const;
+
+ private:
+  ScanCounters* of(std::size_t sensor);
 };
 
 }  // namespace fiimap

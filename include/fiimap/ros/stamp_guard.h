@@ -2,6 +2,10 @@
 
 #include <ros/time.h>
 
+#include <string>
+
+#include "fiimap/ros/drop_reason.h"
+
 namespace fiimap {
 
 /// What the stamp of a message says, seen from those before it on the same topic.
@@ -30,5 +34,8 @@ class StampGuard {
   ros::Time newest_;
   ros::Time doubtful_;
 };
+
+/// Of a message with a single wrong stamp. \param newest good stamp before it.
+Drop strayStamp(const std::string& what, const ros::Time& newest, const ros::Time& stamp);
 
 }  // namespace fiimap

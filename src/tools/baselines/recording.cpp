@@ -23,7 +23,7 @@ class FrameCollector : public ScanListener {
     frames_->push_back(frameOf(scan, 1));
     if (frames_->size() == max_frames_) throw EnoughFrames();
   }
-  void onDrop(const Drop& /*drop*/) override {}
+  void onDrop(const Drop& /*drop*/, std::size_t /*sensor*/) override {}
   void onTimeJump(const std::string& /*what*/) override {}
   void onWarning(const std::string& /*text*/) override {}
 

@@ -71,10 +71,11 @@ class ScanHealth : public ScanEvaluator {
 
 std::vector<std::string> topicsOf(const EvaluationInput& input) {
   std::vector<std::string> topics;
-  if (input.node().sensor == SensorKind::kDepth) {
-    topics = {input.topics().depth_topic, input.topics().camera_info_topic};
-  } else {
-    topics = {input.topics().points_topic};
+  const std::vector<SensorConfig> sensors = input.node().allSensors();
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const SensorBagTopics& own = input.topics().sensors[i];
+    topics.push_back(own.scans(sensors[i].sensor));
+    if (sensors[i].sensor == SensorKind::kDepth) topics.push_back(own.camera_info_topic);
   }
   topics.push_back(input.topics().pose_topic.empty() ? "/tf" : input.topics().pose_topic);
   return topics;
