@@ -38,6 +38,8 @@ void widen(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) 
 /// A word of neighbouring columns.
 struct WordBlock {
   static constexpr int kVectors = kDilatedColumns / kWordLanes;
+  /// Written down, because compilers make it without this instruction set.
+  HWY_INLINE WordBlock() {}
   WordVector part[kVectors];
 };
 
