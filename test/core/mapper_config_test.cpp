@@ -27,8 +27,9 @@ FieldOfParameter number(const std::string& name, double MapperConfig::*field, do
           [=](const MapperConfig& c) { return std::abs(c.*field - value) < 1e-9; }, field};
 }
 
-template <typename T>
-FieldOfParameter choice(const std::string& name, T MapperConfig::*field, const std::string& text,
+/// \tparam Struct the configuration or a part of it.
+template <typename Struct, typename T>
+FieldOfParameter choice(const std::string& name, T Struct::*field, const std::string& text,
                         T value) {
   return {name, text, [=](const MapperConfig& c) { return c.*field == value; }, nullptr};
 }

@@ -98,8 +98,8 @@ TEST(PointProjectorTest, RaysStopShortOfSurfacesBeyondTheirMaximumLength) {
   const Projected result = project(config, {{0.0f, 5.1f, 0.0f}, {0.0f, 0.0f, 5.4f}});
   EXPECT_EQ(result.count.too_far, 2u);
   ASSERT_EQ(result.scan.misses.size(), 2u);
-  EXPECT_LT((result.scan.misses[0] - Eigen::Vector3f(0.0f, 4.8f, 0.0f)).norm(), kTolerance);
-  EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(0.0f, 0.0f, 5.0f)).norm(), kTolerance);
+  EXPECT_LT((result.scan.misses[0] - Eigen::Vector3f(0.0f, 4.8f, 0.0f)).norm(), kPointTolerance);
+  EXPECT_LT((result.scan.misses[1] - Eigen::Vector3f(0.0f, 0.0f, 5.0f)).norm(), kPointTolerance);
   config.ray_end_cut = 30.0;
   EXPECT_TRUE(project(config, {{0.0f, 5.1f, 0.0f}}).scan.misses.empty());
 }
