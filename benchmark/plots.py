@@ -1,9 +1,16 @@
 """Plots of what fiimap_compare measured, for docs/performance.md."""
 import math
+import pathlib
+import sys
 
 import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot  # noqa: E402  the backend must be chosen first
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / 'scripts' / 'report_page'))
+import palette  # noqa: E402  found by the path above
+
+palette.use()
 
 MILLISECONDS = 1e-3  # per microsecond
 SIZE = (6, 4)        # inches

@@ -7,6 +7,10 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot  # noqa: E402  the backend must be chosen first
 
+import palette  # noqa: E402
+
+palette.use()
+
 DPI = 100
 SIZE = (6.4, 4.2)  # inches
 WIDE = (7.6, 4.2)
@@ -114,7 +118,8 @@ def accuracy_figure(accuracy, paper):
     if theirs:
         axes.bar(paper_names, [p['hit'] for p in theirs], yerr=[p['std'] for p in theirs],
                  capsize=4, color='0.7', label="hit, the paper's corridor")
-    axes.plot(names, [r['blocked_rate_mean'] for r in rows], 'o', color='tab:red', label='blocked')
+    axes.plot(names, [r['blocked_rate_mean'] for r in rows], 'o', color=palette.VERMILION,
+              label='blocked')
     axes.tick_params(axis='x', labelsize='x-small')
     axes.set_ylim(0, 1.05)
     axes.legend(fontsize='small', loc='upper center', bbox_to_anchor=(0.5, -0.17), ncol=3,

@@ -8,6 +8,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 import figures
+import flights
 import map_pictures
 
 # Table 1 of the paper, its laboratory corridor: share in percent, mean and deviation over scans.
@@ -59,6 +60,17 @@ def number_cells(data):
     return cell
 
 
+def fill(template, data, **values):
+    """The page; data: what its cells show, and what is embedded."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True,
+        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    embedded = Markup(json.dumps(data).replace('<', '\\u003c'))
+    return environment.get_template(template).render(
+        data=data, cell=number_cells(data), machine=machine(), version=version(),
+        embedded=embedded, **values)
+
+
 def render(name, bag, folder, steps, jobs):
     data = {step.name: step.figures(folder) for step in steps}
     parameters = data['run']['parameters']
@@ -75,13 +87,13 @@ def render(name, bag, folder, steps, jobs):
         truth_resolution = data['truth']['results'][0]['resolution']
         images['truth'] = map_pictures.error_picture(folder / 'truth' / 'voxels.csv',
                                                      truth_resolution)
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True,
-        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    embedded = Markup(json.dumps(data).replace('<', '\\u003c'))
-    return environment.get_template('page.html').render(
-        name=name, bag=bag.name, data=data, cell=number_cells(data), images=images,
-        paper=PAPER_ACCURACY, parameters=parameters, machine=machine(), version=version(),
-        jobs=jobs, stages=[s for s in figures.STAGES if s in data['run']['stages_ms']],
-        embedded=embedded, label_of=figures.label_of,
-        commands=[[s.name, *s.arguments] for s in steps])
+    return fill(
+        'page.html', data, name=name, bag=bag.name, images=images, paper=PAPER_ACCURACY,
+        parameters=parameters, jobs=jobs,
+        stages=[s for s in figures.STAGES if s in data['run']['stages_ms']],
+        label_of=figures.label_of, commands=[[s.name, *s.arguments] for s in steps])
+
+
+def render_flights(rows):
+    """rows: as flights.read() makes them."""
+    return fill('flights.html', {'flights': rows}, images=flights.pictures(rows))

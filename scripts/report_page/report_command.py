@@ -11,6 +11,7 @@ from steps import Step, StepError, write_whole
 
 VERIFY_EVERY = 50           # scans
 COMPARE_RESOLUTION = 0.2    # m: the paper's Figures 7 and 8
+FLIGHTS = 'flights'         # name of the page of simulated flights
 DRAWING = threading.Lock()  # matplotlib reads formulas in one thread at a time
 
 
@@ -19,8 +20,10 @@ def parse(description):
         prog='fiimap_eval report', description=description,
         formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add('bags', nargs='+', type=pathlib.Path, metavar='BAG')
+    add('bags', nargs='*', type=pathlib.Path, metavar='BAG')
     add('-o', '--output', required=True, type=pathlib.Path, metavar='DIR')
+    add('--flights', action='append', default=[], metavar='NAME=FILE',
+        help='what fiimap_flights --json wrote, for the page DIR/flights.html; may be repeated')
     add('--config', type=pathlib.Path, help='parameters (YAML, as for the nodelet)')
     add('--set', action='append', default=[], metavar='NAME=VALUE',
         help='a parameter, after those of the file; may be repeated')
@@ -106,12 +109,21 @@ def report_on(bag, name, program, arguments):
                     page.render(name, bag, folder, steps, arguments.jobs))
 
 
+def report_on_flights(arguments):
+    """Writes the page of simulated flights. Raises StepError or OSError."""
+    with DRAWING:
+        import flights  # here, as above
+        import page
+        rows = flights.read(arguments.flights)
+        write_whole(arguments.output / f'{FLIGHTS}.html', page.render_flights(rows))
+
+
 def names_of(bags):
-    """A name for each page; recordings of the same name are numbered."""
+    """A name for each page; recordings of the same name are numbered, and none is that of flights."""
     names = []
     for bag in bags:
         name, number = bag.stem, 2
-        while name in names:
+        while name in [*names, FLIGHTS]:
             name, number = f'{bag.stem}_{number}', number + 1
         names.append(name)
     return names
@@ -122,8 +134,27 @@ def check(arguments):
     for file in files:
         if file and not file.is_file():
             raise StepError(f'{file} is not a file')
+    if not arguments.bags and not arguments.flights:
+        raise StepError('there must be a recording or --flights')
     if arguments.jobs < 1:
         raise StepError('--jobs must be at least 1')
+
+
+def make_pages(program, arguments):
+    """Returns how many failed; their reasons are printed."""
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        tasks = {bag: pool.submit(report_on, bag, name, program, arguments)
+                 for bag, name in zip(arguments.bags, names_of(arguments.bags))}
+        if arguments.flights:
+            tasks['flights'] = pool.submit(report_on_flights, arguments)
+        failures = 0
+        for subject, task in tasks.items():
+            try:
+                task.result()
+            except (StepError, OSError) as error:
+                print(f'error: {subject}: {error}', file=sys.stderr)
+                failures += 1
+    return failures
 
 
 def main(description):
@@ -136,18 +167,10 @@ def main(description):
     except (StepError, OSError) as error:
         print(f'error: {error}', file=sys.stderr)
         return 1
-    failures = 0
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        tasks = {bag: pool.submit(report_on, bag, name, program, arguments)
-                 for bag, name in zip(arguments.bags, names_of(arguments.bags))}
-        for bag, task in tasks.items():
-            try:
-                task.result()
-            except (StepError, OSError) as error:
-                print(f'error: {bag}: {error}', file=sys.stderr)
-                failures += 1
+    failures = make_pages(program, arguments)
+    names = names_of(arguments.bags) + ([FLIGHTS] if arguments.flights else [])
     for path in sorted(arguments.output.glob('*.html')):
-        if path.stem in names_of(arguments.bags):
+        if path.stem in names:
             print(path)
     if new_output and not any(arguments.output.iterdir()):
         arguments.output.rmdir()

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 
+#include "baselines/thread_clock.h"
 #include "fiimap/mapper.h"
 #include "heading_control.h"
 #include "simulator.h"
@@ -14,6 +15,13 @@ namespace fiimap {
 namespace {
 
 constexpr double kNoPathPatience = 10.0;  // s; the planner tries again
+constexpr double kMicroseconds = 1e-6;    // s
+
+/// Adds the CPU time of a call to a sum, s.
+template <typename Call>
+void addCpuTime(double* sum, Call&& call) {
+  *sum += kMicroseconds * bench::microsecondsOf(call);
+}
 
 /// A depth image that waits for the odometry of its moment.
 struct WaitingImage {
@@ -51,6 +59,15 @@ class ClosedLoop {
   }
 
   void step() {
+    CpuTimes* cpu = &outcome_.cpu_s;
+    addCpuTime(&cpu->simulation, [this] { simulate(); });
+    while (hasOdometryOfNextImage()) addCpuTime(&cpu->mapping, [this] { integrate(); });
+    if (snapshot_ && simulator_.isDue(settings_.planner.node.command_rate)) {
+      addCpuTime(&cpu->planning, [this] { plan(); });
+    }
+  }
+
+  void simulate() {
     simulator_.advance();
     if (simulator_.isDue(kClearanceRate)) {
       outcome_.clearances_m.push_back(simulator_.record().clearance);
@@ -58,9 +75,12 @@ class ClosedLoop {
     if (simulator_.cameraIsDue()) images_.push_back({simulator_.time(), simulator_.depthImage()});
     if (const auto odometry = simulator_.odometry()) {
       vehicle_ = *odometry;
-      while (!images_.empty() && images_.front().time <= vehicle_.time) integrate();
+      has_odometry_ = true;
     }
-    if (snapshot_ && simulator_.isDue(settings_.planner.node.command_rate)) plan();
+  }
+
+  bool hasOdometryOfNextImage() const {
+    return has_odometry_ && !images_.empty() && images_.front().time <= vehicle_.time;
   }
 
   /// The oldest waiting image.
@@ -129,6 +149,7 @@ class ClosedLoop {
   Eigen::Isometry3d T_B_C_;
   std::deque<WaitingImage> images_;
   sim::OdometrySample vehicle_;
+  bool has_odometry_ = false;
   std::shared_ptr<const Snapshot> snapshot_;
   double path_known_ = 0.0;  // s, when there last was a path
   FlightOutcome outcome_;

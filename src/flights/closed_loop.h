@@ -12,6 +12,13 @@ namespace fiimap {
 /// How often a flight's clearance is noted, Hz.
 constexpr double kClearanceRate = 10.0;
 
+/// CPU time that each part of a flight took, s.
+struct CpuTimes {
+  double simulation = 0.0;  ///< vehicle, images, odometry and true clearance
+  double mapping = 0.0;     ///< from images to snapshots
+  double planning = 0.0;    ///< from snapshots to commands
+};
+
 /// How a flight ended, and what happened on the way.
 struct FlightOutcome {
   bool reached = false;
@@ -21,6 +28,7 @@ struct FlightOutcome {
   std::vector<double> clearances_m;  ///< true ones, kClearanceRate times a second
   std::vector<double> update_ms;     ///< wall-clock time of each update of the map
   std::vector<double> planning_ms;   ///< likewise of each step of the planner that planned
+  CpuTimes cpu_s;
 };
 
 /// Flies from the start of a world to its goal: simulator, map and planner in one thread, in steps

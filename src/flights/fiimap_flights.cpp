@@ -120,7 +120,10 @@ nlohmann::json toJson(const FlightOutcome& outcome) {
           {"map_update_ms_median", update.median},
           {"map_update_ms_p95", update.p95},
           {"planning_ms_median", planning.median},
-          {"planning_ms_p95", planning.p95}};
+          {"planning_ms_p95", planning.p95},
+          {"simulation_cpu_share", outcome.cpu_s.simulation / outcome.seconds},
+          {"mapping_cpu_share", outcome.cpu_s.mapping / outcome.seconds},
+          {"planning_cpu_share", outcome.cpu_s.planning / outcome.seconds}};
 }
 
 std::string nameOf(const std::vector<std::string>& combination) {
@@ -135,8 +138,16 @@ double median(const std::vector<nlohmann::json>& flights, const std::string& key
   return fiimap::quantilesOf(values).median;
 }
 
-/// One row of the summary. Clearances: least, and median of the flights' least ones.
+/// The first rows of the summary, and one of its rows. Clearances: least, and median of the
+/// flights' least ones; shares: CPU time by simulated time, median of the flights.
+void printSummaryHead() {
+  std::cout << "| settings | flights | reached | collided | least clearance m | median of least m "
+               "| time s | way m | map ms | plan ms | simulation % | mapping % | planning % |\n"
+               "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+}
+
 void printSummary(const std::string& name, const std::vector<nlohmann::json>& flights) {
+  constexpr double kPercent = 100.0;
   int reached = 0, collided = 0;
   double least = std::numeric_limits<double>::infinity();
   for (const nlohmann::json& flight : flights) {
@@ -145,10 +156,33 @@ void printSummary(const std::string& name, const std::vector<nlohmann::json>& fl
     least = std::min(least, flight["least_clearance_m"].get<double>());
   }
   std::cout << "| " << name << " | " << flights.size() << " | " << reached << " | " << collided
-            << " | " << least << " | " << median(flights, "least_clearance_m") << " | "
-            << median(flights, "seconds") << " | " << median(flights, "path_length_m") << " | "
-            << median(flights, "map_update_ms_median") << " | "
-            << median(flights, "planning_ms_median") << " |\n";
+            << " | " << least;
+  for (const char* key : {"least_clearance_m", "seconds", "path_length_m", "map_update_ms_median",
+                          "planning_ms_median"}) {
+    std::cout << " | " << median(flights, key);
+  }
+  for (const char* key : {"simulation_cpu_share", "mapping_cpu_share", "planning_cpu_share"}) {
+    std::cout << " | " << kPercent * median(flights, key);
+  }
+  std::cout << " |\n";
+}
+
+/// Does nothing without a path.
+void write(const nlohmann::json& report, const std::string& path) {
+  if (path.empty()) return;
+  std::ofstream file(path);
+  if (!(file << report.dump(2) << std::endl)) throw std::runtime_error("cannot write " + path);
+}
+
+nlohmann::json fly(const FlightSettings& base, const std::vector<std::string>& combination,
+                   int seed) {
+  FlightSettings settings = base;
+  settings.simulator.world.seed = seed;
+  for (const std::string& setting : combination) applySetting(setting, &settings);
+  nlohmann::json flight = toJson(fiimap::flyClosedLoop(settings));
+  flight["settings"] = combination;
+  flight["seed"] = seed;
+  return flight;
 }
 
 void flyAll(const Options& options) {
@@ -157,30 +191,19 @@ void flyAll(const Options& options) {
   fiimap::ProgressBar progress(all.size() * options.seeds);
   std::size_t done = 0;
   nlohmann::json report = nlohmann::json::array();
+  write(report, options.json);  // so that a bad path is known before the flights
   std::vector<std::vector<nlohmann::json>> flights(all.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (int seed = 1; seed <= options.seeds; ++seed) {
-      FlightSettings settings = base;
-      settings.simulator.world.seed = seed;
-      for (const std::string& setting : all[k]) applySetting(setting, &settings);
-      nlohmann::json flight = toJson(fiimap::flyClosedLoop(settings));
-      flight["settings"] = all[k];
-      flight["seed"] = seed;
-      flights[k].push_back(flight);
-      report.push_back(flight);
+      flights[k].push_back(fly(base, all[k], seed));
+      report.push_back(flights[k].back());
+      write(report, options.json);  // so that an interrupted run keeps its flights
       progress.show(++done);
     }
   }
   progress.end();
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    if (!(file << report.dump(2) << '\n')) {
-      throw std::runtime_error("cannot write " + options.json);
-    }
-  }
-  std::cout << std::fixed << std::setprecision(2)
-            << "| settings | flights | reached | collided | least clearance m | median of least m "
-               "| time s | way m | map ms | plan ms |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  std::cout << std::fixed << std::setprecision(2);
+  printSummaryHead();
   for (std::size_t k = 0; k < all.size(); ++k) printSummary(nameOf(all[k]), flights[k]);
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "baselines/thread_clock.h"
+
 namespace fiimap {
 namespace {
 
@@ -31,6 +33,19 @@ TEST(ClosedLoopTest, ReachesTheGoalWithoutCollision) {
   EXPECT_GT(outcome.truth.path_length, kLength - 1.0);
   EXPECT_GT(outcome.update_ms.size(), 100u);
   EXPECT_EQ(outcome.planning_ms.size(), outcome.planner.plans + outcome.planner.failures);
+}
+
+TEST(ClosedLoopTest, PartsShareTheCpuTimeOfTheFlight) {
+  FlightSettings settings = shortFlight();
+  settings.time_limit = 3.0;
+  CpuTimes cpu_s;
+  constexpr double kMicroseconds = 1e-6;  // s
+  const double whole =
+      kMicroseconds * bench::microsecondsOf([&] { cpu_s = flyClosedLoop(settings).cpu_s; });
+  for (const double part : {cpu_s.simulation, cpu_s.mapping, cpu_s.planning}) {
+    EXPECT_GT(part, 0.0);
+  }
+  EXPECT_LT(cpu_s.simulation + cpu_s.mapping + cpu_s.planning, whole);
 }
 
 TEST(ClosedLoopTest, FindsItsWayOutOfDeadEnds) {

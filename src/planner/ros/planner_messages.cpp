@@ -47,6 +47,19 @@ visualization_msgs::Marker marker(const std_msgs::Header& header, int id, int ty
   return m;
 }
 
+std_msgs::ColorRGBA makeColor(float r, float g, float b) {
+  std_msgs::ColorRGBA color;
+  color.r = r;
+  color.g = g;
+  color.b = b;
+  color.a = 1.0f;
+  return color;
+}
+
+// Green and vermilion that are told apart without a sense for red and green.
+const std_msgs::ColorRGBA kFlownColor = makeColor(0.0f, 0.62f, 0.45f);
+const std_msgs::ColorRGBA kBrakingColor = makeColor(0.84f, 0.37f, 0.0f);
+
 /// Nothing to show takes away what was shown.
 void hideWhenEmpty(visualization_msgs::Marker* m) {
   if (m->points.empty()) m->action = visualization_msgs::Marker::DELETE;
@@ -135,7 +148,7 @@ visualization_msgs::MarkerArray toMarkers(const Flight& flight, double time,
     for (double t = time; t < last.endTime() + kTrajectoryStep; t += kTrajectoryStep) {
       line.points.push_back(toPoint(flight.flown().at(t).at(t).position));
     }
-    (last.isBraking() ? line.color.r : line.color.g) = 1.0f;
+    line.color = last.isBraking() ? kBrakingColor : kFlownColor;
   }
   Marker path = marker(header, 1, Marker::LINE_STRIP, kPathWidth);
   path.color.b = path.color.r = 1.0f;
