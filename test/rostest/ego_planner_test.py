@@ -22,6 +22,7 @@ WIDTH, HEIGHT, FOCAL_LENGTH = 64, 48, 50.0  # pixels
 VEHICLE_X = 0.5  # m
 VEHICLE_Z = 1.0  # m
 SEND_PERIOD = 0.05  # s
+STRAIGHT_POINTS = 41  # of the fake planner's search, 4 m in steps of 0.1 m
 
 # As ego-planner's launch file sets them.
 GRID_MAP = {
@@ -136,6 +137,7 @@ class EgoPlannerTest(rostest_support.MapTest):
         planner = self.start_planner(**parameters)
         report = self.report()
         self.assertEqual((report['inflated'], report['outside']), (5.0, -1.0), 'before the first scan')
+        self.assertEqual((report['straight_free'], report['detour_points']), (1.0, STRAIGHT_POINTS))
         self.sensor = Sensor(sends_clouds, sends_camera_poses)
         wait_for(lambda: self.report()['occupied'] < 5.0, self.report)
         report = self.report()
@@ -148,6 +150,10 @@ class EgoPlannerTest(rostest_support.MapTest):
         self.assertEqual(report['ceiling'], 1.0)
         self.assertEqual(report['timeout'], 0.0)
         self.assertGreater(report['plans'], 0)
+        # Not through the wall but around it.
+        self.assertEqual(report['straight_free'], 0.0)
+        self.assertGreater(report['detour_points'], STRAIGHT_POINTS + 10)
+        self.assertEqual(report['detour_free'], 1.0)
         self.assertEqual(report['changes'], 0, 'the map changed within a plan')
         print('ns per query:', report['ns'])
         return planner

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <fiimap/ros/parameter_sources.h>
+#include <fiimap/snapshot.h>
 
 #include "mapping.h"
 
@@ -32,6 +33,30 @@ void GridMap::initMap(ros::NodeHandle& nh) {
       [this](const std::shared_ptr<const fiimap::Snapshot>& snapshot) { snapshot_ = snapshot; });
   // Now it is known to be a number.
   resolution_ = std::stod(ego.mapping.at("resolution"));
+}
+
+int GridMap::getInflateOccupancy(Eigen::Vector3d position) {
+  if (!snapshot_) return withoutSnapshot(position);
+  switch (snapshot_->inflation(position)) {
+    case fiimap::Inflation::kInflated:
+      return 1;
+    case fiimap::Inflation::kOutside:
+      return -1;
+    default:
+      return 0;
+  }
+}
+
+int GridMap::getOccupancy(Eigen::Vector3d position) {
+  if (!snapshot_) return withoutSnapshot(position);
+  switch (snapshot_->occupancy(position)) {
+    case fiimap::Occupancy::kOccupied:
+      return 1;
+    case fiimap::Occupancy::kOutside:
+      return -1;
+    default:
+      return 0;
+  }
 }
 
 bool GridMap::getOdomDepthTimeout() {

@@ -47,18 +47,15 @@ visualization_msgs::Marker marker(const std_msgs::Header& header, int id, int ty
   return m;
 }
 
-std_msgs::ColorRGBA makeColor(float r, float g, float b) {
+/// Green, or vermilion while it brakes: told apart without a sense for red and green.
+std_msgs::ColorRGBA lineColor(bool is_braking) {
   std_msgs::ColorRGBA color;
-  color.r = r;
-  color.g = g;
-  color.b = b;
+  color.r = is_braking ? 0.84f : 0.0f;
+  color.g = is_braking ? 0.37f : 0.62f;
+  color.b = is_braking ? 0.0f : 0.45f;
   color.a = 1.0f;
   return color;
 }
-
-// Green and vermilion that are told apart without a sense for red and green.
-const std_msgs::ColorRGBA kFlownColor = makeColor(0.0f, 0.62f, 0.45f);
-const std_msgs::ColorRGBA kBrakingColor = makeColor(0.84f, 0.37f, 0.0f);
 
 /// Nothing to show takes away what was shown.
 void hideWhenEmpty(visualization_msgs::Marker* m) {
@@ -148,7 +145,7 @@ visualization_msgs::MarkerArray toMarkers(const Flight& flight, double time,
     for (double t = time; t < last.endTime() + kTrajectoryStep; t += kTrajectoryStep) {
       line.points.push_back(toPoint(flight.flown().at(t).at(t).position));
     }
-    line.color = last.isBraking() ? kBrakingColor : kFlownColor;
+    line.color = lineColor(last.isBraking());
   }
   Marker path = marker(header, 1, Marker::LINE_STRIP, kPathWidth);
   path.color.b = path.color.r = 1.0f;

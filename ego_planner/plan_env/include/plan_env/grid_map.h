@@ -1,13 +1,27 @@
 #pragma once
 
+// ego-planner's packages include this header in C++11 and C++14: nothing newer, and no header of
+// fiimap. What they use of other headers and of std they get through it.
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
 #include <memory>
+#include <queue>
+#include <random>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
-#include <Eigen/Core>
+#include <Eigen/Eigen>
 
-#include <fiimap/snapshot.h>
+using namespace std;  // NOLINT: they say vector, string and unique_ptr
+
+namespace fiimap {
+class Snapshot;
+}
 
 /// The map as ego-planner's packages call it. A fiimap/MappingNodelet makes it in threads of its
 /// own inside of the planner's process; callbacks of the planner's thread only take its newest
@@ -50,28 +64,3 @@ class GridMap {
   std::shared_ptr<const fiimap::Snapshot> snapshot_;
   std::unique_ptr<Mapping> mapping_;
 };
-
-// Here because it is called a million times in a plan.
-inline int GridMap::getInflateOccupancy(Eigen::Vector3d position) {
-  if (!snapshot_) return withoutSnapshot(position);
-  switch (snapshot_->inflation(position)) {
-    case fiimap::Inflation::kInflated:
-      return 1;
-    case fiimap::Inflation::kOutside:
-      return -1;
-    default:
-      return 0;
-  }
-}
-
-inline int GridMap::getOccupancy(Eigen::Vector3d position) {
-  if (!snapshot_) return withoutSnapshot(position);
-  switch (snapshot_->occupancy(position)) {
-    case fiimap::Occupancy::kOccupied:
-      return 1;
-    case fiimap::Occupancy::kOutside:
-      return -1;
-    default:
-      return 0;
-  }
-}
