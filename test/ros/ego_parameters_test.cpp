@@ -71,5 +71,27 @@ TEST(EgoParametersTest, RefusesWhatIsNoNumber) {
   EXPECT_THROW(readEgoParameters({{"sensor", "sonar"}}), std::invalid_argument);
 }
 
+TEST(EgoParametersTest, VersionTwoHasAWindowThatFollowsTheVehicle) {
+  const ParameterMap values = {{"enable_virtual_wall", "true"}, {"virtual_ceil", "2.5"},
+                               {"virtual_ground", "-0.2"},      {"local_update_range_x", "7"},
+                               {"local_update_range_z", "2"},   {"pose_type", "2"}};
+  EXPECT_TRUE(readEgoParameters(values).is_version_2);
+  EXPECT_TRUE(readEgoParameters(values).ignored.empty());
+  const Configuration c = configured(values);
+  EXPECT_EQ(c.mapper.map_mode, MapMode::kSliding);
+  EXPECT_EQ(c.mapper.mapSize(), Eigen::Vector3d(14, 11, 4));
+  EXPECT_EQ(c.mapper.local_update_range_x, 14.0);
+  EXPECT_TRUE(c.mapper.virtual_walls);
+  EXPECT_EQ(c.mapper.virtual_floor, -0.2);
+  EXPECT_EQ(c.mapper.virtual_ceiling, 2.5);
+  // As far as the window's corner.
+  EXPECT_NEAR(c.mapper.max_ray_length, Eigen::Vector3d(7, 5.5, 2).norm(), 1e-9);
+  EXPECT_EQ(c.node.parameterExtrinsics().translation(), Eigen::Vector3d::Zero());
+}
+
+TEST(EgoParametersTest, VersionOneIsNotTakenForVersionTwo) {
+  EXPECT_FALSE(readEgoParameters({{"virtual_ceil_height", "2.5"}}).is_version_2);
+}
+
 }  // namespace
 }  // namespace fiimap

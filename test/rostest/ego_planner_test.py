@@ -39,16 +39,25 @@ GRID_MAP = {
 }
 
 
+# What EGO-Planner-v2's launch file sets in the place of some of these.
+GRID_MAP_2 = {
+    **{name: value for name, value in GRID_MAP.items() if not name.startswith(
+        ('map_size', 'local_map', 'ground', 'virtual', 'visualization', 'max_ray'))},
+    'enable_virtual_wall': True, 'virtual_ceil': 2.5, 'virtual_ground': -0.1, 'fading_time': 1000.0,
+    'odom_depth_timeout': 1.0,
+}
+
+
 class Sensor:
     """A vehicle at rest that looks along x at a wall, as ego-planner's topics tell it."""
 
-    def __init__(self, sends_clouds, sends_camera_poses):
+    def __init__(self, sends_clouds, sends_camera_poses, topics='/grid_map'):
         self.sends_clouds = sends_clouds
         self.sends_camera_poses = sends_camera_poses
-        self._odometry = rospy.Publisher('/grid_map/odom', Odometry, queue_size=10)
-        self._poses = rospy.Publisher('/grid_map/pose', PoseStamped, queue_size=10)
-        self._depth = rospy.Publisher('/grid_map/depth', Image, queue_size=10)
-        self._clouds = rospy.Publisher('/grid_map/cloud', PointCloud2, queue_size=10)
+        self._odometry = rospy.Publisher(topics + '/odom', Odometry, queue_size=10)
+        self._poses = rospy.Publisher(topics + '/pose', PoseStamped, queue_size=10)
+        self._depth = rospy.Publisher(topics + '/depth', Image, queue_size=10)
+        self._clouds = rospy.Publisher(topics + '/cloud', PointCloud2, queue_size=10)
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._send_all)
         self._thread.start()
@@ -179,6 +188,21 @@ class EgoPlannerTest(rostest_support.MapTest):
 
     def test_clouds_in_the_map_frame(self):
         self.check_wall(sends_clouds=True, sensor='cloud')
+
+    def test_version_2_has_topics_of_its_own_and_is_free_outside(self):
+        self.set_parameters({'grid_map': GRID_MAP_2}, 'ego_planner_node')
+        planner = self.start(program('fiimap', 'fake_ego_planner'))
+        self.assertEqual(self.report()['outside'], 0.0)
+        self.sensor = Sensor(False, False, topics='/ego_planner_node/grid_map')
+        wait_for(lambda: self.report()['occupied'] < 5.0, self.report)
+        report = self.report()
+        self.assertAlmostEqual(report['occupied'], math.floor(WALL_X / RESOLUTION) * RESOLUTION,
+                               delta=0.01)
+        self.assertEqual((report['outside'], report['not_finite'], report['ceiling']), (0., -1., 1.))
+        self.assertEqual(report['detour_free'], 1.0)
+        rospy.wait_for_message('/ego_planner_node/grid_map/occupancy_inflate', PointCloud2,
+                               rostest_support.PATIENCE)
+        self.assertEqual(planner.interrupt(), 0, planner.output())
 
     def test_launch_file(self):
         launch = self.start('roslaunch', 'fiimap', 'ego_planner.launch', 'pkg:=fiimap',

@@ -11,6 +11,7 @@ namespace {
 using fiimap::ParameterMap;
 
 const char* const kOwnPrefix = "fiimap/";
+const char* const kAxes[] = {"x", "y", "z"};
 
 /// Reads values and remembers which were asked for.
 class Reader {
@@ -33,6 +34,7 @@ class Reader {
     }
     return number;
   }
+  bool has(const std::string& name) const { return values_.count(name) > 0; }
   std::vector<std::string> unasked() const {
     std::vector<std::string> names;
     for (const auto& [name, value] : values_) {
@@ -56,8 +58,36 @@ class Reader {
   std::vector<std::string> asked_;
 };
 
+/// The box of an update; ego-planner tells half of its edges.
+/// \return the edges, m.
+Eigen::Vector3d readUpdateRange(Reader* reader, EgoParameters* ego) {
+  const double half_extents[] = {5.5, 5.5, 4.5};  // m
+  Eigen::Vector3d range;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = std::string("local_update_range_") + kAxes[axis];
+    range[axis] = 2.0 * reader->number(name, half_extents[axis]);
+    ego->mapping[name] = Reader::toText(range[axis]);
+  }
+  return range;
+}
+
+/// Version 2: a window that follows the vehicle, as large as the box of an update.
+void readMovingExtent(Reader* reader, EgoParameters* ego) {
+  ParameterMap& map = ego->mapping;
+  const Eigen::Vector3d range = readUpdateRange(reader, ego);
+  map["map_mode"] = "sliding";
+  for (int axis = 0; axis < 3; ++axis) {
+    map[std::string("map_size_") + kAxes[axis]] = Reader::toText(range[axis]);
+  }
+  map["virtual_walls"] = reader->text("enable_virtual_wall", "false");
+  map["virtual_floor"] = reader->text("virtual_ground", "-1");
+  map["virtual_ceiling"] = reader->text("virtual_ceil", "3");
+  // It has no limits of its own: a ray ends where the window does.
+  map["max_ray_length"] = map["max_depth"] = Reader::toText(range.norm() / 2.0);
+}
+
 /// A fixed window around the origin, from the ground up, as large as ego-planner's array.
-void readExtent(Reader* reader, EgoParameters* ego) {
+void readFixedExtent(Reader* reader, EgoParameters* ego) {
   ParameterMap& map = ego->mapping;
   const Eigen::Vector3d size(reader->number("map_size_x", 40.0), reader->number("map_size_y", 40.0),
                              reader->number("map_size_z", 3.0));
@@ -65,15 +95,14 @@ void readExtent(Reader* reader, EgoParameters* ego) {
   ego->low = {-size.x() / 2.0, -size.y() / 2.0, ground};
   ego->high = ego->low + size;
   map["map_mode"] = "fixed";
-  const char* const axes[] = {"x", "y", "z"};
-  const double range[] = {5.5, 5.5, 4.5};  // m, half extents
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = axes[axis];
+    const std::string name = kAxes[axis];
     map["map_size_" + name] = Reader::toText(size[axis]);
     map["map_center_" + name] = Reader::toText((ego->low[axis] + ego->high[axis]) / 2.0);
-    map["local_update_range_" + name] =
-        Reader::toText(2.0 * reader->number("local_update_range_" + name, range[axis]));
   }
+  readUpdateRange(reader, ego);
+  map["max_ray_length"] = reader->text("max_ray_length", "4.5");
+  map["max_depth"] = reader->text("depth_filter_maxdist", "5.0");
   const double ceiling = reader->number("virtual_ceil_height", -0.1);
   map["virtual_walls"] = ceiling > ground ? "true" : "false";
   map["virtual_floor"] = Reader::toText(ground);
@@ -98,11 +127,10 @@ void readSensor(Reader* reader, EgoParameters* ego) {
   const bool by_pose = ego->has_cloud_sensor || ego->has_camera_pose;
   map["pose_source"] = by_pose ? "pose" : "odometry";
   map["extrinsics"] = "parameter";
-  map["extrinsic_translation"] = by_pose ? "0 0 0" : "0 0 -0.02";
+  map["extrinsic_translation"] = by_pose || ego->is_version_2 ? "0 0 0" : "0 0 -0.02";
   map["extrinsic_rotation"] = by_pose ? "0 0 0 1" : "-0.5 0.5 -0.5 0.5";
   map["depth_scale"] = Reader::toText(1.0 / reader->number("k_depth_scaling_factor", 1000.0));
   map["min_depth"] = reader->text("depth_filter_mindist", "0.2");
-  map["max_depth"] = reader->text("depth_filter_maxdist", "5.0");
   map["border_margin"] = reader->text("depth_filter_margin", "1");
   map["pixel_step"] = ego->has_cloud_sensor ? "1" : reader->text("skip_pixel", "2");
 }
@@ -122,11 +150,17 @@ EgoParameters readEgoParameters(const ParameterMap& values) {
                                                    {"p_min", "0.12"},
                                                    {"p_max", "0.90"},
                                                    {"p_occ", "0.80"},
-                                                   {"min_ray_length", "0.1"},
-                                                   {"max_ray_length", "4.5"}}) {
+                                                   {"min_ray_length", "0.1"}}) {
     map[name] = reader.text(name, fallback);
   }
-  readExtent(&reader, &ego);
+  for (const char* name : {"virtual_ceil", "virtual_ground", "enable_virtual_wall"}) {
+    ego.is_version_2 = ego.is_version_2 || reader.has(name);
+  }
+  if (ego.is_version_2) {
+    readMovingExtent(&reader, &ego);
+  } else {
+    readFixedExtent(&reader, &ego);
+  }
   readSensor(&reader, &ego);
   ego.odom_depth_timeout = reader.number("odom_depth_timeout", ego.odom_depth_timeout);
   const std::string prefix = kOwnPrefix;

@@ -41,7 +41,7 @@ int GridMap::getInflateOccupancy(Eigen::Vector3d position) {
     case fiimap::Inflation::kInflated:
       return 1;
     case fiimap::Inflation::kOutside:
-      return -1;
+      return outside(position);
     default:
       return 0;
   }
@@ -53,7 +53,7 @@ int GridMap::getOccupancy(Eigen::Vector3d position) {
     case fiimap::Occupancy::kOccupied:
       return 1;
     case fiimap::Occupancy::kOutside:
-      return -1;
+      return outside(position);
     default:
       return 0;
   }
@@ -69,7 +69,11 @@ bool GridMap::getOdomDepthTimeout() {
 int GridMap::withoutSnapshot(const Eigen::Vector3d& position) const {
   if (!mapping_) return -1;
   const EgoParameters& ego = mapping_->parameters();
-  const bool inside =
+  const bool is_inside =
       (position.array() >= ego.low.array()).all() && (position.array() < ego.high.array()).all();
-  return inside ? 0 : -1;
+  return is_inside ? 0 : outside(position);
+}
+
+int GridMap::outside(const Eigen::Vector3d& position) const {
+  return mapping_->parameters().is_version_2 && position.allFinite() ? 0 : -1;
 }

@@ -9,14 +9,13 @@ namespace {
 
 constexpr int kQueue = 1;
 constexpr bool kProvideServices = false;
-const std::string kDepth = "/grid_map/depth", kCloud = "/grid_map/cloud", kOdom = "/grid_map/odom",
-                  kPose = "/grid_map/pose";
 
 }  // namespace
 
 GridMap::Mapping::Mapping(ros::NodeHandle& nh, const EgoParameters& ego, OnSnapshot on_snapshot)
     : ego_(ego),
       on_snapshot_(std::move(on_snapshot)),
+      topics_((ego.is_version_2 ? nh.getNamespace() : "") + "/grid_map/"),
       loader_(kProvideServices),
       spinner_(1, &queue_) {
   const std::string name = nh.getNamespace() + "/fiimap";
@@ -25,12 +24,13 @@ GridMap::Mapping::Mapping(ros::NodeHandle& nh, const EgoParameters& ego, OnSnaps
   for (const auto& [key, value] : ego_.mapping) ros::param::set(name + "/" + key, value);
   if (ego_.has_cloud_sensor) {
     relay_ = std::make_unique<WorldCloudRelay>(
-        node_, WorldCloudRelay::Topics{kCloud, kOdom, kPose, name + "/points", name + "/pose"});
+        node_, WorldCloudRelay::Topics{topics_ + "cloud", topics_ + "odom", topics_ + "pose",
+                                       name + "/points", name + "/pose"});
   } else {
     const bool latch = true;
     info_publisher_ =
         node_.advertise<sensor_msgs::CameraInfo>(name + "/camera_info", kQueue, latch);
-    image_subscriber_ = node_.subscribe(kDepth, kQueue, &Mapping::onFirstImage, this);
+    image_subscriber_ = node_.subscribe(topics_ + "depth", kQueue, &Mapping::onFirstImage, this);
   }
   load(name);
   map_subscriber_ = nh.subscribe(name + "/map_handle", kQueue, &Mapping::onMap, this);
@@ -46,13 +46,16 @@ GridMap::Mapping::~Mapping() {
 
 void GridMap::Mapping::load(const std::string& name) {
   const auto resolved = [](const std::string& topic) { return ros::names::resolve(topic); };
-  nodelet::M_string remappings = {{resolved("depth/image"), resolved(kDepth)},
+  const auto ego = [this](const std::string& topic) {
+    return ros::names::resolve(topics_ + topic);
+  };
+  nodelet::M_string remappings = {{resolved("depth/image"), ego("depth")},
                                   {resolved("depth/camera_info"), name + "/camera_info"},
                                   {resolved("points"), name + "/points"},
-                                  {resolved("odom"), resolved(kOdom)},
-                                  {resolved("pose"), resolved(kPose)},
-                                  {name + "/occupied", resolved("/grid_map/occupancy")},
-                                  {name + "/inflated", resolved("/grid_map/occupancy_inflate")}};
+                                  {resolved("odom"), ego("odom")},
+                                  {resolved("pose"), ego("pose")},
+                                  {name + "/occupied", ego("occupancy")},
+                                  {name + "/inflated", ego("occupancy_inflate")}};
   if (ego_.has_cloud_sensor) remappings[resolved("pose")] = name + "/pose";
   // The nodelet's relative names lie beside its own name.
   const std::string space = name.substr(0, name.rfind('/')) + "/";

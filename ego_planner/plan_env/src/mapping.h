@@ -33,6 +33,7 @@ class GridMap::Mapping {
 
   EgoParameters ego_;
   OnSnapshot on_snapshot_;
+  const std::string topics_;  // what all of ego-planner's begin with, before they are remapped
   nodelet::Loader loader_;
   // Not the planner's queue, which waits while it plans.
   ros::CallbackQueue queue_;

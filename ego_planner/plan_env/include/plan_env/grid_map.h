@@ -44,7 +44,8 @@ class GridMap {
   /// Edge length of a voxel, metres.
   double getResolution() { return resolution_; }
 
-  /// 1: inflated; 0: free or unknown; -1: outside of the map. Takes no lock.
+  /// 1: inflated; 0: free or unknown; outside of the map -1, or 0 with the parameters of version 2.
+  /// Takes no lock.
   /// \param position metres, map frame.
   int getInflateOccupancy(Eigen::Vector3d position);
   /// The same for what was measured: 1 where an obstacle is.
@@ -58,6 +59,7 @@ class GridMap {
   class Mapping;  // what runs the map; keeps its headers out of here
 
   int withoutSnapshot(const Eigen::Vector3d& position) const;
+  int outside(const Eigen::Vector3d& position) const;
 
   double resolution_ = 0.0;
   double timeout_ = 0.0;  // s
