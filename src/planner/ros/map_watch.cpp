@@ -53,6 +53,8 @@ std::string MapWatch::findTrouble(double time) const {
            "parameter map";
   }
   if (!newest_) return "the map " + map_ + " has no scan yet: see its warnings and /diagnostics";
+  // The handle may be found before the map's first message.
+  if (frame_.empty()) return "the map " + map_ + " has not told its frame yet";
   // Also after a jump back in time: what was new before it may be long ago.
   if (std::abs(time - newest_time_) > timeout_) {
     std::ostringstream text;
