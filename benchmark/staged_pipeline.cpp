@@ -8,7 +8,8 @@ StagedPipeline::StagedPipeline(const MapperConfig& config, const std::vector<Fra
     : config_(config),
       frames_(frames),
       projector_(config),
-      ray_caster_(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover),
+      ray_caster_(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover,
+                  config.round_rays),
       integrator_(LogOdds(config)),
       inflater_(makeInflater(config)),
       grid_(VoxelLattice(config.resolution).sizeOf(config.mapSize())) {

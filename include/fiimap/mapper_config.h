@@ -65,6 +65,7 @@ struct MapperConfig : ReadingConfig {
 
   double ray_end_cut = 2.25;
   double min_hit_cover = 0.05;
+  bool round_rays = true;
 
   double p_hit = 0.65;
   double p_miss = 0.30;

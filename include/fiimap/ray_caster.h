@@ -26,8 +26,8 @@ struct RayCount {
 /// - Free is every voxel that the segment from the origin to the ray's end touches (Amanatides &
 ///   Woo 1987), where a miss's segment ends in the centre of its voxel and a return's segment
 ///   `end_cut` voxel edges before it.
-/// - Directions are rounded: to the centre of the cell that the ray crosses in a side face of a
-/// cube
+/// - Directions are rounded, if wanted: to the centre of the cell that the ray crosses in a side
+/// face of a cube
 ///   around the origin, parallel to the axes, whose cells have a voxel edge and whose middle cells
 ///   lie on the axes. Half its side is the whole number above the distance along x or y of the end
 ///   that is farthest along one of them, and a quarter, but at most 512. A rounded segment ends
@@ -46,7 +46,9 @@ class RayCaster {
  public:
   /// \param end_cut voxel edges, >= 0.
   /// \param min_hit_cover share of a voxel's face, 0 to 1; see HitCover.
-  RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover = 0.0);
+  /// \param round_rays whether directions are rounded; otherwise all rays are straight.
+  RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover = 0.0,
+            bool round_rays = true);
 
   /// Casts all rays of `scan` inside `box` into `mask`, which is begun anew.
   RayCount cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask);
@@ -66,6 +68,7 @@ class RayCaster {
   VoxelLattice lattice_;
   float end_cut_;
   HitCover hit_cover_;
+  bool round_rays_;
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();  // of the scan, in voxels relative to the box
   bool origin_is_inside_ = true;
   RayEnds misses_, returns_;

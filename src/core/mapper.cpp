@@ -58,7 +58,7 @@ Mapper::Mapper(const MapperConfig& config)
       lattice_(config.resolution),
       log_odds_(config),
       grid_(lattice_.sizeOf(config.mapSize())),
-      ray_caster_(lattice_, config.ray_end_cut, config.min_hit_cover),
+      ray_caster_(lattice_, config.ray_end_cut, config.min_hit_cover, config.round_rays),
       integrator_(log_odds_),
       inflater_(makeInflater(config)) {
   for (std::size_t sensor = 0; sensor < config.sensorCount(); ++sensor) {

@@ -84,6 +84,8 @@ std::vector<Parameter> occupancyParameters(MapperConfig* c) {
                       "a ray frees voxels up to this far in front of the surface that it met"),
       numberParameter("min_hit_cover", &c->min_hit_cover, 0.0, 1.0, "of a voxel's face",
                       "depth images: a voxel that rays pass is hit if returns cover this share"),
+      flagParameter("round_rays", &c->round_rays,
+                    "directions of rays are rounded, so that they share their way: faster"),
 
       numberParameter("p_hit", &c->p_hit, 0.501, 0.999, "",
                       "probability of occupancy after one hit (eq. 6)"),

@@ -44,10 +44,12 @@ constexpr int kMaxHalfSide = 512;
 
 }  // namespace
 
-RayCaster::RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover)
+RayCaster::RayCaster(const VoxelLattice& lattice, double end_cut, double min_hit_cover,
+                     bool round_rays)
     : lattice_(lattice),
       end_cut_(static_cast<float>(end_cut)),
       hit_cover_(min_hit_cover),
+      round_rays_(round_rays),
       kernels_(kernels()) {}
 
 RayCount RayCaster::cast(const RangeData& scan, const VoxelBox& box, ScanMask* mask) {
@@ -130,7 +132,7 @@ void RayCaster::markEnd(const RayEnds& ends, std::int32_t k, bool are_returns, S
 void RayCaster::castRays(const RayEnds& ends, std::vector<std::int32_t>* listed, float cut,
                          ScanMask* mask) {
   const int count = static_cast<int>(listed->size());
-  if (!origin_is_inside_) {
+  if (!origin_is_inside_ || !round_rays_) {
     for (const std::int32_t k : *listed) castStraight(ends, k, cut, mask);
     return;
   }

@@ -62,6 +62,7 @@ std::vector<FieldOfParameter> fields() {
       number("max_ray_length", &C::max_ray_length, 7.5),
       number("ray_end_cut", &C::ray_end_cut, 0.5),
       number("min_hit_cover", &C::min_hit_cover, 0.2),
+      choice("round_rays", &C::round_rays, "false", false),
       number("p_hit", &C::p_hit, 0.60),
       number("p_miss", &C::p_miss, 0.45),
       number("p_min", &C::p_min, 0.2),

@@ -28,19 +28,19 @@ class MapperModel {
     const Eigen::Vector3d origin_W = pose.T_W_S.translation();
     const ExactPoint origin = inVoxels(origin_W);
     for (std::size_t i = 0; i < points_W.size(); ++i) {
-      RayOracle alone(box, config_.ray_end_cut);
+      RayOracle alone(box, config_.ray_end_cut, config_.round_rays);
       is_exact[i] = addRay(origin_W, points_W[i], &alone) && alone.halfSideOfCube(origin);
     }
     // What is left out may have been what the cube is as large as.
     for (bool again = true; again;) {
       again = false;
-      RayOracle together(box, config_.ray_end_cut);
+      RayOracle together(box, config_.ray_end_cut, config_.round_rays);
       for (std::size_t i = 0; i < points_W.size(); ++i) {
         if (is_exact[i]) addRay(origin_W, points_W[i], &together);
       }
       for (std::size_t i = 0; i < points_W.size(); ++i) {
         if (!is_exact[i]) continue;
-        RayOracle alone(box, config_.ray_end_cut);
+        RayOracle alone(box, config_.ray_end_cut, config_.round_rays);
         addRay(origin_W, points_W[i], &alone);
         alone.cast(origin, *together.halfSideOfCube(origin));
         if (alone.isExact()) continue;
@@ -59,7 +59,7 @@ class MapperModel {
     lowered_ = raised_ = 0;
     const VoxelBox box = updateBox(pose, window);
     if (box.empty()) return;
-    RayOracle oracle(box, config_.ray_end_cut);
+    RayOracle oracle(box, config_.ray_end_cut, config_.round_rays);
     for (const Eigen::Vector3d& p : points_W) addRay(pose.T_W_S.translation(), p, &oracle);
     const ExactPoint origin = inVoxels(pose.T_W_S.translation());
     oracle.cast(origin, *oracle.halfSideOfCube(origin));

@@ -29,6 +29,7 @@ MapperConfig randomConfig(test::Random& random) {
   const double max_slide = std::min(2.0, config.mapSize().minCoeff() / 2.0);
   config.slide_distance = test::uniformReal(random, 0.0, max_slide);
   config.ray_end_cut = test::uniformInt(random, 0, 3) * 0.5;
+  config.round_rays = test::chance(random, 0.8);
   config.min_hit_cover = 0.0;  // of points, which the model takes, the density is not known
   config.max_ray_length = test::uniformReal(random, 2.0, 10.0);
   config.max_depth = 100.0;

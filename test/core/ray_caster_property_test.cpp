@@ -23,6 +23,7 @@ struct Setting {
   VoxelBox box;
   double end_cut;
   Place place;
+  bool round_rays;
 };
 
 ExactPoint inVoxels(const Eigen::Vector3d& point_W, double resolution) {
@@ -48,7 +49,9 @@ class ScanMaker {
       (is_return ? scan.returns : scan.misses).push_back(offset);
     }
     const std::optional<int> half_side = oracle->halfSideOfCube(origin);
-    if (!half_side) return make(rays, &(*oracle = RayOracle(setting_.box, setting_.end_cut)));
+    if (!half_side)
+      return make(rays,
+                  &(*oracle = RayOracle(setting_.box, setting_.end_cut, setting_.round_rays)));
     oracle->cast(origin, *half_side);
     return scan;
   }
@@ -143,13 +146,14 @@ Setting randomSetting(test::Random& random) {
                                    kHeights[test::uniformInt(random, 0, 7)]);
   setting.end_cut = kCuts[test::uniformInt(random, 0, 6)];
   setting.place = static_cast<Place>(test::uniformInt(random, 0, 3));
+  setting.round_rays = test::chance(random, 0.8);
   return setting;
 }
 
 std::string describe(const Setting& s, int round) {
   return "round " + std::to_string(round) + ", resolution " + std::to_string(s.resolution) +
          ", box " + test::describe(s.box) + ", cut " + std::to_string(s.end_cut) + ", place " +
-         std::to_string(static_cast<int>(s.place));
+         std::to_string(static_cast<int>(s.place)) + (s.round_rays ? ", rounded" : ", straight");
 }
 
 /// Boxes that the cube of directions does not fill.
@@ -174,9 +178,9 @@ TEST_P(RayCasterPropertyTest, AgreesWithTheExactReference) {
     const bool is_dense = !is_long && test::chance(random, 0.1);
     const int rays =
         is_dense ? test::uniformInt(random, 100, 400) : test::uniformInt(random, 1, 25);
-    RayOracle oracle(setting.box, setting.end_cut);
+    RayOracle oracle(setting.box, setting.end_cut, setting.round_rays);
     const RangeData scan = ScanMaker(setting, &random).make(rays, &oracle);
-    RayCaster caster(VoxelLattice(setting.resolution), setting.end_cut);
+    RayCaster caster(VoxelLattice(setting.resolution), setting.end_cut, 0.0, setting.round_rays);
     const RayCount count = caster.cast(scan, setting.box, &mask);
     ASSERT_EQ(mask.box(), setting.box);
     ASSERT_NO_FATAL_FAILURE(expectMarked(mask, ScanMask::kHit, oracle.hits()));
@@ -204,9 +208,9 @@ TEST_P(RayCasterPropertyTest, NeitherOrderNorRepetitionOfPointsMatters) {
   for (int round = 0; round < test::effort(40); ++round) {
     const Setting setting = randomSetting(random);
     SCOPED_TRACE(describe(setting, round));
-    RayOracle unused(setting.box, setting.end_cut);
+    RayOracle unused(setting.box, setting.end_cut, setting.round_rays);
     RangeData scan = ScanMaker(setting, &random).make(30, &unused);
-    RayCaster caster(VoxelLattice(setting.resolution), setting.end_cut);
+    RayCaster caster(VoxelLattice(setting.resolution), setting.end_cut, 0.0, setting.round_rays);
     const RayCount count = caster.cast(scan, setting.box, &mask);
 
     for (auto* points : {&scan.returns, &scan.misses}) {

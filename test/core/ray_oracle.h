@@ -69,8 +69,8 @@ inline bool nearFace(const ExactPoint& point, int ignored_axis = -1) {
 /// which they are rounded depends on all of them. All rays have one origin.
 class RayOracle {
  public:
-  RayOracle(const VoxelBox& box, long double end_cut)
-      : box_(box), end_cut_(end_cut), must_free_(box), may_free_(box) {}
+  RayOracle(const VoxelBox& box, long double end_cut, bool round_rays)
+      : box_(box), end_cut_(end_cut), round_rays_(round_rays), must_free_(box), may_free_(box) {}
 
   /// \return false, and nothing is added, where rounding decides in which voxel the ray ends.
   bool addReturn(const ExactPoint& origin, const ExactPoint& end) {
@@ -141,8 +141,9 @@ class RayOracle {
   bool isRounded(const ExactPoint& ray, int half_side, long double tolerance) const {
     const auto from_low = (origin_ - box_.min.cast<long double>()).array();
     const auto to_high = (box_.max.cast<long double>() - origin_).array();
-    return (from_low >= -tolerance).all() && (to_high >= -tolerance).all() && major(ray) > 0.0L &&
-           major(ray) <= half_side + tolerance && std::abs(ray.z()) <= major(ray) + tolerance;
+    const bool is_inside = (from_low >= -tolerance).all() && (to_high >= -tolerance).all();
+    return round_rays_ && is_inside && major(ray) > 0.0L && major(ray) <= half_side + tolerance &&
+           std::abs(ray.z()) <= major(ray) + tolerance;
   }
 
   /// The whole numbers to which a coordinate may be rounded.
@@ -198,6 +199,7 @@ class RayOracle {
 
   VoxelBox box_;
   long double end_cut_;
+  bool round_rays_;
   ExactPoint origin_ = ExactPoint::Zero();
   VoxelSet hits_, miss_ends_;
   VoxelField must_free_, may_free_;

@@ -233,7 +233,7 @@ TEST(AccuracyCommandTest, AgreesWithOctomapWhereTheRulesDo) {
   options.input.bag = FIIMAP_SOURCE_DIR "/data/cow_and_lady_excerpt.bag";
   options.input.config = FIIMAP_SOURCE_DIR "/config/cow_and_lady.yaml";
   options.input.json = json_file.path();
-  options.input.settings = {"ray_end_cut=0", "beyond_max_depth=ignore"};
+  options.input.settings = {"ray_end_cut=0", "beyond_max_depth=ignore", "round_rays=false"};
   options.octomap = true;
   options.folds = 4;
   options.fold = 3;
