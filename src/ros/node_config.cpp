@@ -134,6 +134,11 @@ void NodeConfig::validate() const {
            ": must be at least max_pose_wait and max_pose_gap");
   }
   if (!body_frame.empty()) return;
+  if (pose_source == PoseSource::kTf && sensors.size() > 1) {
+    refuse(
+        "parameter body_frame = '': must be set, because with several sensors pose_source = tf "
+        "needs to know which frame is the vehicle's");
+  }
   for (const SensorConfig& each : allSensors()) {
     const bool from_tf = each.extrinsics == ExtrinsicsSource::kTf;
     if (pose_source == PoseSource::kPose && from_tf) {
