@@ -58,7 +58,7 @@ class Mapper {
   /// \throws std::invalid_argument when the configuration is not valid.
   explicit Mapper(const MapperConfig& config);
 
-  /// Integrates one scan.
+  /// Integrates one scan. The window follows it unless a newer one is in the map already.
   /// \param sensor that it is from: index into the configuration's `sensors`.
   /// \throws std::invalid_argument, with the map unchanged, when the pose is not finite or not in
   /// the range of voxel indices, or the image or its intrinsics are not valid; std::out_of_range
@@ -70,7 +70,7 @@ class Mapper {
   /// An immutable view of the map as it is now, with the stamp of the newest scan.
   std::shared_ptr<const Snapshot> snapshot();
 
-  /// Forgets everything.
+  /// Forgets everything; stamps may begin again.
   void reset();
 
   /// Changes the inflation from now on; the inflated layer is exact again on return.
@@ -105,7 +105,7 @@ class Mapper {
   ScanMask mask_;
   ChangeSet changes_;
   bool window_placed_ = false;
-  std::int64_t stamp_ns_ = 0;
+  std::int64_t stamp_ns_ = 0;  // of the newest scan
   std::uint64_t sequence_ = 0;
 };
 

@@ -49,6 +49,11 @@ std::vector<Parameter> readingParameters(ReadingConfig* config, const std::strin
 std::vector<std::string> applyParameters(const ParameterMap& values,
                                          const std::vector<Parameter>& parameters);
 
+/// Refuses values of two parameters that contradict each other.
+/// \throws std::invalid_argument that names both, unless low < high.
+void requireLess(const std::string& low_name, double low, const std::string& high_name,
+                 double high);
+
 // Implementation of the template.
 namespace internal {
 std::size_t indexOfChoice(const std::string& name, const std::string& value,

@@ -93,7 +93,12 @@ ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   const VoxelIndex vehicle = lattice_.indexOf(pose.vehicle_W);
 
   changes_.clear();
-  follow(vehicle);
+  // A sensor whose scans take longer must not turn the window back.
+  const bool is_newest = !window_placed_ || pose.stamp_ns >= stamp_ns_;
+  if (is_newest) {
+    stamp_ns_ = pose.stamp_ns;
+    follow(vehicle);
+  }
   report.times_ms.slide = stopwatch.lap();
 
   const VoxelIndex update_range = lattice_.sizeOf(config_.localUpdateRange());
@@ -107,7 +112,6 @@ ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   inflater_->update(changes_, &grid_);
   report.times_ms.inflate = stopwatch.lap();
 
-  stamp_ns_ = pose.stamp_ns;
   report.raise = changes_.raise.size();
   report.lower = changes_.lower.size();
   report.forgotten = changes_.forgotten.size();
@@ -146,6 +150,7 @@ std::shared_ptr<const Snapshot> Mapper::snapshot() {
 void Mapper::reset() {
   grid_.clear();
   window_placed_ = false;
+  stamp_ns_ = 0;
 }
 
 void Mapper::setInflation(double radius, ElementShape shape) {

@@ -18,13 +18,6 @@ constexpr double kMaxMemory = 1e6;  // MB
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
-void requireLess(const std::string& low_name, double low, const std::string& high_name,
-                 double high) {
-  if (low < high) return;
-  refuse("parameter " + low_name + " = " + std::to_string(low) + ": must be less than " +
-         high_name + " = " + std::to_string(high));
-}
-
 Parameter connectivityParameter(int* field) {
   const std::string name = "bfs_connectivity";
   const std::string allowed = "6, 18 or 26";

@@ -98,6 +98,13 @@ Parameter textParameter(const std::string& name, std::string* field, const std::
           [field](const std::string& text) { *field = text; }};
 }
 
+void requireLess(const std::string& low_name, double low, const std::string& high_name,
+                 double high) {
+  if (low < high) return;
+  throw std::invalid_argument("parameter " + low_name + " = " + std::to_string(low) +
+                              ": must be less than " + high_name + " = " + std::to_string(high));
+}
+
 std::vector<std::string> applyParameters(const ParameterMap& values,
                                          const std::vector<Parameter>& parameters) {
   std::vector<std::string> unknown;

@@ -1,4 +1,3 @@
-#include <stdexcept>
 #include <string>
 
 #include "fiimap/parameters.h"
@@ -7,13 +6,6 @@ namespace fiimap {
 namespace {
 
 constexpr double kMinRange = 0.0, kMaxRange = 1000.0;  // m
-
-void requireLess(const std::string& low_name, double low, const std::string& high_name,
-                 double high) {
-  if (low < high) return;
-  throw std::invalid_argument("parameter " + low_name + " = " + std::to_string(low) +
-                              ": must be less than " + high_name + " = " + std::to_string(high));
-}
 
 }  // namespace
 
@@ -50,8 +42,9 @@ std::vector<Parameter> readingParameters(ReadingConfig* c, const std::string& pr
 
 void ReadingConfig::validate(const std::string& prefix) const {
   ReadingConfig copy = *this;
-  for (const Parameter& parameter : readingParameters(&copy, prefix))
+  for (const Parameter& parameter : readingParameters(&copy, prefix)) {
     parameter.set(parameter.get());
+  }
   requireLess(prefix + "min_depth", min_depth, prefix + "max_depth", max_depth);
   requireLess(prefix + "min_ray_length", min_ray_length, prefix + "max_ray_length", max_ray_length);
 }

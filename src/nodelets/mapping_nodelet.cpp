@@ -164,7 +164,7 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
       VoxelLattice::boxAround(snapshot.lattice().indexOf(update.pose.vehicle_W),
                               snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()));
   clouds_->offer(update.snapshot, update_range.intersection(snapshot.window()));
-  vehicle_->add(toPose(update.T_W_B, toHeader(snapshot, frame)));
+  vehicle_->add(toPose(update.T_W_B, toHeader(update.pose.stamp_ns, frame)));
   diagnostics_->onUpdate(update);
 }
 

@@ -50,7 +50,7 @@ void setCounters(const ScanCounters& counters, Statistics* message) {
 
 Statistics toStatistics(const MapUpdate& update, const std::string& map_frame) {
   Statistics message;
-  message.header = toHeader(*update.snapshot, map_frame);
+  message.header = toHeader(update.pose.stamp_ns, map_frame);
   message.sequence = update.snapshot->info().sequence;
   message.sensor = update.sensor;
   setTimes(update.report.times_ms, update.decode_ms, &message);

@@ -27,8 +27,8 @@ std::string CameraSetupCheck::look(const ResolvedPose& camera, const std::string
   return "the camera of frame '" + frame +
          "' looks straight up or down and is not rotated on its body: this is a body frame (x "
          "forward) used as an optical frame (z forward). Give the image the frame_id of the "
-         "optical "
-         "frame, or set extrinsic_rotation (-0.5 0.5 -0.5 0.5 for a camera that looks along x)";
+         "optical frame, or set extrinsic_rotation (-0.5 0.5 -0.5 0.5 for a camera that looks "
+         "along x)";
 }
 
 }  // namespace fiimap

@@ -29,11 +29,15 @@ void addField(const std::string& name, std::uint32_t offset, sensor_msgs::PointC
 
 }  // namespace
 
-std_msgs::Header toHeader(const Snapshot& snapshot, const std::string& map_frame) {
+std_msgs::Header toHeader(std::int64_t stamp_ns, const std::string& map_frame) {
   std_msgs::Header header;
-  header.stamp.fromNSec(static_cast<std::uint64_t>(snapshot.info().stamp_ns));
+  header.stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
   header.frame_id = map_frame;
   return header;
+}
+
+std_msgs::Header toHeader(const Snapshot& snapshot, const std::string& map_frame) {
+  return toHeader(snapshot.info().stamp_ns, map_frame);
 }
 
 MapInfo toMapInfo(const Snapshot& snapshot, const std::string& id, const std::string& map_frame) {

@@ -58,15 +58,18 @@ void append(std::vector<Parameter> more, std::vector<Parameter>* all) {
   std::move(more.begin(), more.end(), std::back_inserter(*all));
 }
 
+bool isNameOf(const std::string& name, const std::vector<Parameter>& parameters) {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&name](const Parameter& parameter) { return parameter.name == name; });
+}
+
 /// What lies under a sensor's name cannot lie under a parameter's.
 void requireFreeNames(const std::vector<SensorConfig>& sensors,
                       const std::vector<Parameter>& parameters) {
-  for (const Parameter& parameter : parameters) {
-    for (const SensorConfig& sensor : sensors) {
-      if (sensor.name != parameter.name) continue;
-      refuse("parameter sensors = '" + joinNames(sensors) + "': '" + sensor.name +
-             "' is the name of a parameter, must be another");
-    }
+  for (const SensorConfig& sensor : sensors) {
+    if (!isNameOf(sensor.name, parameters)) continue;
+    refuse("parameter sensors = '" + joinNames(sensors) + "': '" + sensor.name +
+           "' is the name of a parameter, must be another");
   }
 }
 
@@ -134,6 +137,11 @@ void NodeConfig::validate() const {
            ": must be at least max_pose_wait and max_pose_gap");
   }
   if (!body_frame.empty()) return;
+  if (pose_source == PoseSource::kTf && sensors.size() > 1) {
+    refuse(
+        "parameter body_frame = '': must be set, because with several sensors pose_source = tf "
+        "needs to know which frame is the vehicle's");
+  }
   for (const SensorConfig& each : allSensors()) {
     const bool from_tf = each.extrinsics == ExtrinsicsSource::kTf;
     if (pose_source == PoseSource::kPose && from_tf) {
@@ -149,12 +157,19 @@ void NodeConfig::validate() const {
 
 std::vector<std::string> configure(const ParameterMap& values, MapperConfig* mapper,
                                    NodeConfig* node) {
-  ParameterMap of_all, of_sensors;
-  for (const auto& [name, value] : values) {
-    (name.find('/') == std::string::npos ? of_all : of_sensors)[name] = value;
-  }
   std::vector<Parameter> parameters = mapperParameters(mapper);
   append(nodeParameters(node), &parameters);
+  ParameterMap of_all, of_sensors;
+  for (const auto& [name, value] : values) {
+    const std::string space = name.substr(0, name.find('/'));
+    if (space == name) {
+      of_all[name] = value;
+    } else if (isNameOf(space, parameters)) {
+      of_all[space] = "";  // a namespace is no value of a parameter
+    } else {
+      of_sensors[name] = value;
+    }
+  }
   std::vector<std::string> unknown = applyParameters(of_all, parameters);
   requireFreeNames(node->sensors, parameters);
   shareAmongSensors(mapper, node);

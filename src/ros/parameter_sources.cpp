@@ -86,6 +86,19 @@ std::string toText(const std::string& name, const YAML::Node& node) {
   return joined;
 }
 
+/// What stands where no value can be read, for the message that refuses it.
+std::string asWritten(const XmlRpc::XmlRpcValue& value) {
+  std::ostringstream text;
+  value.write(text);
+  return text.str();
+}
+
+std::string asWritten(const YAML::Node& node) {
+  YAML::Emitter text;
+  text << node;
+  return text.c_str();
+}
+
 /// A sensor's parameters, or what others keep there: of that, the name alone lets the caller say
 /// that it is unknown, whatever its value is.
 template <typename Value>
@@ -93,7 +106,7 @@ void addEntry(const std::string& name, const Value& value, ParameterMap* values)
   try {
     (*values)[name] = toText(name, value);
   } catch (const std::invalid_argument&) {
-    (*values)[name] = "";
+    (*values)[name] = asWritten(value);
   }
 }
 

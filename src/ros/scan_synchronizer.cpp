@@ -72,9 +72,10 @@ void ScanSynchronizer::add(const ScanMessage& scan, const Moment& received, std:
 }
 
 void ScanSynchronizer::add(const SensorInput::Scan& scan, SensorInput* sensor) {
-  if (!sensor->add(scan)) {
-    restart(sensor->newestGood(), scan.stamp, sensor->config().prefix() + "scans");
-    sensor->add(scan);
+  if (!sensor->add(scan, newestScan(sensor))) {
+    const std::string& name = sensor->config().name;
+    restart(sensor->newestGood(), scan.stamp, name.empty() ? "scans" : "the scans of " + name);
+    sensor->add(scan, newestScan(sensor));
   }
   emitReadyScans();
   while (sensor->dropExcess()) emitReadyScans();
@@ -128,11 +129,23 @@ void ScanSynchronizer::finish() {
   for (SensorInput& sensor : sensors_) sensor.finish();
 }
 
-/// Of all sensors.
-ros::Time ScanSynchronizer::newestScan() const {
+/// Of all sensors but one; a clock that is far ahead tells the others nothing.
+ros::Time ScanSynchronizer::newestScan(const SensorInput* without) const {
   ros::Time newest;
-  for (const SensorInput& sensor : sensors_) newest = std::max(newest, sensor.newest());
+  for (const SensorInput& sensor : sensors_) {
+    if (&sensor == without || isFarAhead(sensor)) continue;
+    newest = std::max(newest, sensor.newest());
+  }
   return newest;
+}
+
+/// Of all the other sensors that sent something.
+bool ScanSynchronizer::isFarAhead(const SensorInput& sensor) const {
+  ros::Time others;
+  for (const SensorInput& other : sensors_) {
+    if (&other != &sensor) others = std::max(others, other.newest());
+  }
+  return !others.isZero() && secondsBetween(others, sensor.newest()) > StampGuard::kJump;
 }
 
 }  // namespace fiimap

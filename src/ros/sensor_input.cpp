@@ -66,8 +66,8 @@ std::optional<SensorInput::Scan> SensorInput::stamped(const ScanMessage& message
   return Scan{message, plainFrame(header.frame_id), stamp, received};
 }
 
-bool SensorInput::add(const Scan& scan) {
-  switch (guard_.judge(scan.stamp, poses_->newestPose())) {
+bool SensorInput::add(const Scan& scan, const ros::Time& others) {
+  switch (guard_.judge(scan.stamp, std::max(poses_->newestPose(), others))) {
     case StampVerdict::kDoubtful:
       dropDoubtful();
       doubtful_ = scan;

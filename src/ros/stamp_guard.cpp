@@ -9,7 +9,8 @@ namespace fiimap {
 
 StampVerdict StampGuard::judge(const ros::Time& stamp, const ros::Time& other) {
   const ros::Time doubtful = std::exchange(doubtful_, ros::Time());
-  const bool first = newest_.isZero();
+  // What the very first stamp is ahead of, nobody knows.
+  const bool first = newest_.isZero() && other.isZero();
   const bool back = secondsBetween(stamp, newest_) > kJump;
   const bool ahead = !first && secondsBetween(std::max(newest_, other), stamp) > kJump;
   if (!back && !ahead) {

@@ -14,6 +14,7 @@ double distance(const geometry_msgs::PoseStamped& a, const geometry_msgs::PoseSt
 }  // namespace
 
 void VehiclePath::add(const geometry_msgs::PoseStamped& pose) {
+  if (!poses_.empty() && pose.header.stamp < poses_.back().header.stamp) return;
   const std::size_t size = poses_.size();
   // The newest pose stays for good only if it is far enough from the one before it.
   if (size >= 2 && distance(poses_[size - 2], poses_[size - 1]) < spacing_) poses_.pop_back();

@@ -9,6 +9,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -119,6 +120,34 @@ void chooseScans(const Candidates& candidates, const SensorConfig& sensor,
   }
 }
 
+template <typename... Messages>
+void requireType(const rosbag::Bag& bag, const std::string& parameter, const std::string& topic) {
+  if (topic.empty()) return;
+  const std::vector<std::string> allowed = {ros::message_traits::DataType<Messages>::value()...};
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    const std::string& type = connection->datatype;
+    if (std::find(allowed.begin(), allowed.end(), type) != allowed.end()) continue;
+    std::string list;
+    for (const std::string& name : allowed) list += (list.empty() ? "" : " or ") + name;
+    throw std::invalid_argument("parameter " + parameter + " = '" + topic + "': is of type " +
+                                type + " in the bag, must be of " + list);
+  }
+}
+
+void requireTypes(const rosbag::Bag& bag, const std::vector<SensorConfig>& sensors,
+                  const BagTopics& topics) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string prefix = sensors[i].prefix();
+    const SensorBagTopics& own = topics.sensors[i];
+    requireType<sensor_msgs::Image>(bag, prefix + "depth_topic", own.depth_topic);
+    requireType<sensor_msgs::CameraInfo>(bag, prefix + "camera_info_topic", own.camera_info_topic);
+    requireType<sensor_msgs::PointCloud2>(bag, prefix + "points_topic", own.points_topic);
+  }
+  requireType<nav_msgs::Odometry, geometry_msgs::PoseStamped, geometry_msgs::TransformStamped>(
+      bag, "pose_topic", topics.pose_topic);
+}
+
 /// Two sensors do not write one topic.
 void requireOwnTopics(const std::vector<SensorConfig>& sensors, const BagTopics& topics) {
   std::map<std::string, std::string> reader;  // names of sensors by topic
@@ -193,6 +222,7 @@ BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, Bag
       }
       break;
   }
+  requireTypes(bag, sensors, topics);
   return topics;
 }
 

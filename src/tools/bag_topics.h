@@ -37,8 +37,8 @@ struct BagTopics {
 /// before a cloud; what is a depth image, its encoding tells), config->pose_source (odometry, then
 /// pose, then transform, then TF) and config->map_frame (the frame of the first pose). Of several
 /// topics of a type, a sensor's own is the one that the node would subscribe to.
-/// \throws std::invalid_argument when there is no input, or more than one candidate for it; the
-/// text lists them.
+/// \throws std::invalid_argument when there is no input, or more than one candidate for it (the
+/// text lists them), or when a topic holds messages of another type.
 BagTopics chooseTopics(const rosbag::Bag& bag, const ParameterMap& settings, BagTopics topics,
                        NodeConfig* config);
 

@@ -51,8 +51,7 @@ void EvaluationInput::requireOneSensor() const {
   if (node_.sensors.empty()) return;
   throw std::invalid_argument(
       "parameter sensors: several sensors go into the map of run and health alone; leave it out "
-      "and "
-      "name the topic of one");
+      "and name the topic of one");
 }
 
 void EvaluationInput::writeJson(nlohmann::json figures) const {

@@ -61,12 +61,8 @@ void ScanEvaluator::onDrop(const Drop& drop, std::size_t sensor) {
 }
 
 void ScanEvaluator::onTimeJump(const std::string& what) {
-  warnOnce(what);
+  warnOnce(what, "jump");
   forget();
-}
-
-void ScanEvaluator::warnOnce(const std::string& text) {
-  warnOnce(text, text.substr(0, text.find(':')));
 }
 
 void ScanEvaluator::warnOnce(const std::string& text, const std::string& kind) {

@@ -38,14 +38,12 @@ class ScanEvaluator : private ScanListener {
   virtual void forget() = 0;
   /// Scans in the recording.
   std::size_t total() const { return total_; }
-  /// The kind of trouble is the text up to its colon.
-  void warnOnce(const std::string& text);
 
  private:
   void onScan(const SynchronizedScan& scan) override;
   void onDrop(const Drop& drop, std::size_t sensor) override;
   void onTimeJump(const std::string& what) override;
-  void onWarning(const std::string& text) override { warnOnce(text); }
+  void onWarning(const std::string& text) override { warnOnce(text, text); }
 
   void warnOnce(const std::string& text, const std::string& kind);
 

@@ -198,8 +198,39 @@ TEST(MapperTest, SnapshotsCarryStampSequenceAndSettings) {
   mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 1600000000200000000));
   EXPECT_EQ(mapper.snapshot()->info().sequence, 2u);
   EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 1600000000200000000);
-  mapper.integrate(PointScan(), poseAt({0.0, 0.0, 0.0}, 5));
-  EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 5) << "of the newest scan, not the largest";
+}
+
+TEST(MapperTest, AnOlderScanTurnsNeitherTheWindowNorTheStampBack) {
+  Mapper mapper(smallConfig());
+  const PointScan ahead = {{{1.0f, 0.0f, 0.0f}}};
+  const auto position = [](int k) { return Eigen::Vector3d(1.5 * k + 0.125, 0.125, 0.125); };
+  constexpr std::int64_t kStep = 100;  // ns
+  constexpr int kScans = 6;
+  for (int k = 1; k <= kScans; ++k) {
+    mapper.integrate(PointScan(), poseAt(position(k), k * kStep));
+    const VoxelBox window = mapper.grid().window();
+    // Another sensor's scan, which took longer to come.
+    const ScanReport report = mapper.integrate(ahead, poseAt(position(k - 1), (k - 1) * kStep + 1));
+    EXPECT_EQ(report.rays.hits, 1u) << k;
+    EXPECT_EQ(report.forgotten, 0u) << k;
+    EXPECT_EQ(mapper.grid().window(), window) << k;
+    EXPECT_EQ(mapper.snapshot()->info().stamp_ns, k * kStep);
+  }
+  const Eigen::Vector3d free = position(kScans - 1) + Eigen::Vector3d(0.5, 0.0, 0.0);
+  EXPECT_EQ(mapper.snapshot()->occupancy(free), Occupancy::kFree) << "and it is in the map";
+}
+
+TEST(MapperTest, AfterAResetTimeMayBeginAgain) {
+  Mapper mapper(smallConfig());
+  mapper.integrate(PointScan(), poseAt({0.125, 0.125, 0.125}, 900));
+  mapper.reset();
+  EXPECT_EQ(mapper.snapshot()->info().stamp_ns, 0);
+  for (const std::int64_t stamp : {5, 6}) {
+    const Eigen::Vector3d position(20.0 * static_cast<double>(stamp), 0.125, 0.125);
+    mapper.integrate(PointScan(), poseAt(position, stamp));
+    EXPECT_EQ(mapper.snapshot()->info().stamp_ns, stamp);
+    EXPECT_LT((centerOfWindow(mapper) - position).cwiseAbs().maxCoeff(), kResolution);
+  }
 }
 
 TEST(MapperTest, WallsAreOffUnlessAskedFor) {

@@ -15,6 +15,7 @@
 #include "fiimap/snapshot.h"
 #include "inflation_check.h"
 #include "run_report.h"
+#include "scan_evaluator.h"
 
 namespace fiimap {
 namespace {
@@ -174,6 +175,65 @@ TEST_F(SensorTopicsTest, OneTopicIsNotReadTwice) {
           << error.what();
     }
   }
+}
+
+TEST_F(SensorTopicsTest, AreOfTheTypeThatTheyShouldBe) {
+  const std::vector<std::string> images = {"/front/depth/image", "/left/depth/image"};
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"front/camera_info_topic", "/left/depth/image"},
+      {"left/depth_topic", "/info"},
+      {"pose_topic", "/info"}};
+  for (const auto& [parameter, topic] : wrong) {
+    try {
+      chosen(images, {"/info"}, {{parameter, topic}});
+      ADD_FAILURE() << parameter << " = " << topic << " was accepted";
+    } catch (const std::invalid_argument& error) {
+      const std::string type = topic == "/info" ? "sensor_msgs/CameraInfo" : "sensor_msgs/Image";
+      const std::string expected =
+          "parameter " + parameter + " = '" + topic + "': is of type " + type;
+      EXPECT_EQ(std::string(error.what()).find(expected), 0u) << error.what();
+    }
+  }
+  const ParameterMap right = {{"front/camera_info_topic", "/info"}, {"pose_topic", "/odom"}};
+  EXPECT_NO_THROW(chosen(images, {"/info"}, right));
+}
+
+class IdleEvaluator : public ScanEvaluator {
+  void addScan(const SynchronizedScan& /*scan*/, std::size_t /*index*/) override {}
+  void forget() override {}
+};
+
+TEST(ScanEvaluatorTest, EveryWarningOfASensorIsKept) {
+  const std::string file = testing::TempDir() + "scan_evaluator_test.bag";
+  rosbag::Bag bag(file, rosbag::bagmode::Write);
+  sensor_msgs::CameraInfo info;
+  info.D = {0.5, 0.1, 0.0, 0.0, 0.0};
+  info.width = info.height = 2;
+  info.K = {2.0, 0.0, 1.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0};
+  for (int i = 1; i <= 9; ++i) {
+    const ros::Time stamp(10.0 + 0.05 * i);
+    sensor_msgs::Image image;  // upwards: the frame of a body
+    image.encoding = "16UC1";
+    image.width = image.height = 2;
+    nav_msgs::Odometry odometry;
+    odometry.header.frame_id = "world";
+    odometry.pose.pose.orientation.w = 1.0;
+    info.header.stamp = image.header.stamp = odometry.header.stamp = stamp;
+    bag.write("/odom", stamp, odometry);
+    bag.write("/front/depth/camera_info", stamp, info);
+    bag.write("/front/depth/image", stamp, image);
+  }
+  bag.close();
+  InputOptions options;
+  options.bag = file;
+  options.settings = {"sensors=front", "extrinsics=parameter"};
+  IdleEvaluator evaluator;
+  evaluator.play(EvaluationInput(options));
+  EXPECT_EQ(evaluator.warnings().size(), 2u);
+  for (const std::string& warning : evaluator.warnings()) {
+    EXPECT_EQ(warning.find("front: "), 0u) << warning;
+  }
+  std::remove(file.c_str());
 }
 
 TEST(RunReportTest, HasTheDocumentedKeysAndFigures) {

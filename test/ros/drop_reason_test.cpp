@@ -26,6 +26,20 @@ TEST(DropReasonTest, TheTableIsInTheOrderOfTheReasons) {
   EXPECT_STREQ(nameOf(DropReason::kOverload), "overload");
 }
 
+TEST(DropReasonTest, RemediesNameWhatIsTheSensorsOwn) {
+  const auto ends = [](const Drop& drop, const std::string& end) {
+    const std::string text = drop.text();
+    return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+  };
+  EXPECT_TRUE(ends({DropReason::kNoCameraInfo, "none", "front"}, "remap front/depth/camera_info"));
+  EXPECT_TRUE(ends({DropReason::kNoCameraInfo, "none"}, "remap depth/camera_info"));
+  EXPECT_TRUE(ends({DropReason::kNoExtrinsics, "none", "front"},
+                   "correct body_frame, or set front/extrinsics to parameter with "
+                   "front/extrinsic_translation and front/extrinsic_rotation"));
+  EXPECT_TRUE(ends({DropReason::kPoseTooOld, "old", "front"},
+                   "set front/time_offset; a few at the start are harmless"));
+}
+
 TEST(ScanCountersTest, AddsUp) {
   ScanCounters counters;
   counters.received = 5;

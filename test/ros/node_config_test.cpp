@@ -155,6 +155,16 @@ TEST(SensorsTest, AValueThatIsNotAllowedIsNamedWithItsSensor) {
                 "body_frame = '': must be set, because front/extrinsics");
 }
 
+TEST(SensorsTest, SeveralOnTfNeedTheFrameOfTheVehicle) {
+  MapperConfig mapper;
+  NodeConfig node;
+  EXPECT_TRUE(configure({{"sensors", "front"}, {"pose_source", "tf"}}, &mapper, &node).empty());
+  ParameterMap several = {{"sensors", "front lidar"}, {"pose_source", "tf"}};
+  expectRefused(several, "body_frame = '': must be set, because with several sensors pose_source");
+  several["body_frame"] = "base_link";
+  EXPECT_TRUE(configure(several, &mapper, &node).empty());
+}
+
 TEST(SensorsTest, NamesThatNoSensorHasAreReturned) {
   MapperConfig mapper;
   NodeConfig node;
@@ -211,8 +221,15 @@ TEST_F(YamlTest, ReadsSensorsWithTheirNames) {
   EXPECT_EQ(values, (ParameterMap{{"sensors", "front lidar"},
                                   {"front/max_depth", "4.0"},
                                   {"front/extrinsic_translation", "1 2 3"},
-                                  {"front/odd", ""},
+                                  {"front/odd", "{a: 1}"},
                                   {"lidar/sensor", "points"}}));
+}
+
+TEST_F(YamlTest, AValueOfASensorThatIsNoneIsNamedWithWhatItIs) {
+  const std::string front = "sensors: [front]\nfront: ";
+  expectRefused(read(front + "{max_depth: {a: 1}}\n"), "front/max_depth = '{a: 1}': must be");
+  expectRefused(read(front + "{extrinsic_translation: [1, 2, x y]}\n"),
+                "front/extrinsic_translation = '[1, 2, x y]': must be");
 }
 
 TEST_F(YamlTest, RefusesWhatIsNoMapOfValues) {

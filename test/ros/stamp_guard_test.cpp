@@ -59,6 +59,16 @@ TEST(StampGuardTest, AnotherTopicConfirmsAPauseAtOnce) {
   EXPECT_EQ(judge({5.0, 9.0, 9.5}, 8.5), Verdicts(3, Verdict::kGood));
 }
 
+TEST(StampGuardTest, AnotherTopicTellsOfAFirstStampAhead) {
+  EXPECT_EQ(judge({160.0, 100.1, 100.2}, 100.0),
+            (Verdicts{Verdict::kDoubtful, Verdict::kGood, Verdict::kGood}));
+  EXPECT_EQ(judge({160.0, 160.1}, 100.0), (Verdicts{Verdict::kDoubtful, Verdict::kLeap}));
+}
+
+TEST(StampGuardTest, TheVeryFirstStampIsBelieved) {
+  EXPECT_EQ(judge({160.0, 160.1}), (Verdicts{Verdict::kGood, Verdict::kGood}));
+}
+
 TEST(StampGuardTest, AnotherTopicConfirmsADoubtfulStampToo) {
   StampGuard guard;
   EXPECT_EQ(guard.judge(at(5.0), at(5.0)), Verdict::kGood);

@@ -54,6 +54,20 @@ TEST(VehiclePathTest, IsBoundedAndStillShowsTheWholeWay) {
   EXPECT_LT(largest_gap, length / (VehiclePath::kMaxPoses / 4));
 }
 
+TEST(VehiclePathTest, LeavesOutWhatIsOlderThanTheNewest) {
+  VehiclePath path;
+  for (const double seconds : {5.0, 6.0, 5.5, 7.0}) {
+    geometry_msgs::PoseStamped pose = poseAt(seconds);
+    pose.header.stamp = ros::Time(seconds);
+    path.add(pose);
+  }
+  ASSERT_EQ(path.poses().size(), 3u);
+  for (std::size_t i = 0; i < path.poses().size(); ++i) EXPECT_EQ(xOf(path, i), 5.0 + i);
+  path.clear();
+  path.add(poseAt(1.0));
+  EXPECT_EQ(path.poses().size(), 1u) << "time began again";
+}
+
 TEST(VehiclePathTest, BeginsAnewAfterClear) {
   VehiclePath path;
   for (int i = 0; i < 10; ++i) path.add(poseAt(i));

@@ -29,7 +29,8 @@ constexpr int kDropReasonCount = static_cast<int>(DropReason::kOverload) + 1;
 /// Name for messages, JSON and diagnostics, for instance "pose_timeout".
 const char* nameOf(DropReason reason);
 /// What a user can do about it: one sentence without full stop.
-const char* remedyFor(DropReason reason);
+/// \param sensor name of the one that it is said of; what is its own is named with it.
+std::string remedyFor(DropReason reason, const std::string& sensor = "");
 
 /// One dropped scan.
 struct Drop {

@@ -7,6 +7,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 
 #include "fiimap/ros/vehicle_path.h"
@@ -14,7 +15,8 @@
 
 namespace fiimap {
 
-/// Header with the stamp of the newest scan of a snapshot.
+std_msgs::Header toHeader(std::int64_t stamp_ns, const std::string& map_frame);
+/// With the stamp of the newest scan of a snapshot.
 std_msgs::Header toHeader(const Snapshot& snapshot, const std::string& map_frame);
 
 MapInfo toMapInfo(const Snapshot& snapshot, const std::string& id, const std::string& map_frame);

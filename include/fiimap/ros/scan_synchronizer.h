@@ -57,7 +57,8 @@ class ScanSynchronizer {
   void refuseDoubtfulPose();
   void restart(const ros::Time& newest, const ros::Time& stamp, const std::string& what);
   void emitReadyScans();
-  ros::Time newestScan() const;
+  ros::Time newestScan(const SensorInput* without = nullptr) const;
+  bool isFarAhead(const SensorInput& sensor) const;
 
   ScanListener* listener_;
   std::string map_frame_;

@@ -47,9 +47,10 @@ class SensorInput {
   void add(const sensor_msgs::CameraInfoConstPtr& info);
   /// \return the message with its stamp; nothing when it was dropped because it has none.
   std::optional<Scan> stamped(const ScanMessage& message, const Moment& received);
+  /// \param others newest good stamp of the other sensors; zero when there is none.
   /// \return false when its stamp tells that time began again: it is to be added again after
   /// restart().
-  bool add(const Scan& scan);
+  bool add(const Scan& scan, const ros::Time& others);
 
   /// Drops scans that will never have what they need.
   /// \return what the first of the others needs, when it is known.

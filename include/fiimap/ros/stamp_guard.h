@@ -23,7 +23,8 @@ class StampGuard {
   static constexpr double kJump = 1.0;  ///< s; what is nearer is in order or late
 
   /// After kJumpBack clear() must follow.
-  /// \param other newest good stamp of another topic: near or before it no stamp is too far ahead.
+  /// \param other newest good stamp of other topics, zero when there is none: near or before it no
+  /// stamp is too far ahead; far ahead of it even the first is doubtful.
   StampVerdict judge(const ros::Time& stamp, const ros::Time& other);
   void clear();
 

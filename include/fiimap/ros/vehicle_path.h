@@ -13,6 +13,7 @@ class VehiclePath {
   static constexpr double kSpacing = 0.1;  ///< m, as long as the path is short
   static constexpr std::size_t kMaxPoses = 1000;
 
+  /// Leaves out what is older than the newest: a sensor whose scans take longer.
   void add(const geometry_msgs::PoseStamped& pose);
   void clear();
 
