@@ -69,8 +69,8 @@ struct RowCount {
   int others = 0;  ///< listed
 };
 
-/// Points relative to the rays' origin, metres, and the box in which their rays end. The origin
-/// lies in the box.
+/// Points relative to the rays' origin, metres, finite also in voxel edges, and the box in which
+/// their rays end. The origin lies in the box.
 struct EndPoints {
   const float *x, *y, *z;
   int count;
@@ -102,9 +102,13 @@ struct VoxelBits {
   std::int32_t words_per_column;
 };
 
-/// A cube around the origin of rays, whose side faces are divided into cells of a voxel edge: cell
-/// (0, 0) lies in the middle of a face.
+/// A cube around the origin of rays, with a grid of cells of a voxel edge on each side face: cells
+/// 0 to side() - 1 along either axis. That in the middle, on the axis, is half_side; the outermost
+/// stand out by half a cell.
 struct DirectionCube {
+  /// Rays that end less than this inside of the cube are straight, so that a rounded one ends in
+  /// the column of the straight one, whatever is rounded. Voxel edges.
+  static constexpr float kSlack = 0.25f;
   int half_side;                                  ///< voxel edges
   float origin[3];                                ///< voxel edges from the corner of the box
   int side() const { return 2 * half_side + 1; }  ///< cells
@@ -117,7 +121,8 @@ struct CubeRays {
   /// it crosses none.
   std::vector<std::int32_t> slice;
   std::vector<std::int32_t> cell;  ///< of the column
-  /// Distance that the ray goes along the axis of the face, voxel edges.
+  /// Distance that the ray goes along the axis of the face, voxel edges; of straight rays,
+  /// anything.
   std::vector<float> reach;
 
   /// Makes room for what a kernel may write.

@@ -27,13 +27,13 @@ struct RayCount {
 ///   Woo 1987), where a miss's segment ends in the centre of its voxel and a return's segment
 ///   `end_cut` voxel edges before it.
 /// - Directions are rounded, if wanted: to the centre of the cell that the ray crosses in a side
-/// face of a cube
-///   around the origin, parallel to the axes, whose cells have a voxel edge and whose middle cells
-///   lie on the axes. Half its side is the whole number above the distance along x or y of the end
-///   that is farthest along one of them, and a quarter, but at most 512. A rounded segment ends
-///   where the straight one does along the axis of the face: at most half a voxel edge beside it on
-///   the other axes. Rays steeper than 45 degrees, rays that end outside of the cube, and all rays
-///   of an origin outside of the box are straight.
+///   face of a cube around the origin, parallel to the axes, whose cells have a voxel edge and
+///   whose middle cells lie on the axes. Half its side is the whole number above the distance along
+///   x or y of the end that is farthest along one of them, and a quarter, but at most 512. A
+///   rounded segment ends where the straight one does along the axis of the face: at most half a
+///   voxel edge beside it on the other axes. Straight are rays steeper than 45 degrees, rays that
+///   do not end a quarter of a voxel edge inside of the cube, and all rays of an origin outside of
+///   the box.
 /// A voxel may be both hit and free; who reads the mask lets the hit win, but HitCover takes the
 /// hit from those that hold a sliver.
 ///

@@ -70,7 +70,7 @@ ReadingCount DepthProjector::project(const DepthImage& image, const PinholeIntri
   scan->origin = T_W_C.translation();
 
   const Eigen::Vector2i step = pixelStep(intrinsics);
-  scan->returns_per_steradian = intrinsics.fx * intrinsics.fy / step.prod();  // on the axis
+  scan->returns_per_steradian = intrinsics.fx * intrinsics.fy / step.cast<double>().prod();  // on the axis
   const Eigen::Matrix3d R_W_C = T_W_C.linear();
   const int margin = config_.border_margin;
   ray_of_u_.resize(sampleCount(image.width, margin, step.x()));

@@ -26,8 +26,9 @@ void clipToSlab(float origin, float direction, float size, Span* span) {
 
 /// Voxel of the box that holds a point on the box's surface, or just off it by rounding.
 VoxelIndex nearestVoxel(const Eigen::Vector3f& p, const VoxelIndex& size) {
-  const VoxelIndex v = p.array().floor().cast<int>();
-  return v.cwiseMax(0).cwiseMin(size - VoxelIndex::Ones());
+  // Clamped first: the point may be too far away for an integer.
+  const Eigen::Array3f last = (size - VoxelIndex::Ones()).cast<float>();
+  return p.array().floor().max(0.0f).min(last).cast<int>();
 }
 
 /// Part of a ray that lies in the box [0, size].
@@ -86,7 +87,6 @@ void RayCaster::touchColumns(ScanMask* mask) const {
 
 /// The cube reaches a little beyond the ends that are farthest along x or y.
 void RayCaster::beginCube() {
-  constexpr float kSlack = 0.25f;  // centres of voxels are often a whole number of edges away
   float farthest = 0.0f;
   for (const RayEnds* ends : {&misses_, &returns_}) {
     if (ends->high[0] < 0) continue;
@@ -95,7 +95,8 @@ void RayCaster::beginCube() {
                            ends->high[axis] + 0.5f - origin_[axis]});
     }
   }
-  cube_.half_side = static_cast<int>(std::min<float>(farthest + kSlack, kMaxHalfSide - 1)) + 1;
+  cube_.half_side =
+      static_cast<int>(std::min<float>(farthest + DirectionCube::kSlack, kMaxHalfSide - 1)) + 1;
   for (int axis = 0; axis < 3; ++axis) cube_.origin[axis] = origin_[axis];
   if (origin_is_inside_) slices_.begin(cube_);
 }
@@ -174,7 +175,7 @@ void RayCaster::listEnds(const PointList& points, const ScanMask& mask, RayEnds*
 void RayCaster::listEnd(const Eigen::Vector3f& ray, const ScanMask& mask, RayEnds* ends) const {
   const VoxelIndex& size = mask.size();
   const Eigen::Vector3f end = origin_ + ray;
-  VoxelIndex v = end.cast<int>();  // the floor, inside the box
+  VoxelIndex v = nearestVoxel(end, size);  // its own, inside the box
   std::int32_t flag = 0;
   if (!((end.array() >= 0.0f).all() && (end.array() < size.cast<float>().array()).all())) {
     const Span span = clipToBox(origin_, ray, size);
@@ -212,7 +213,8 @@ void RayCaster::castStraight(const RayEnds& ends, std::int32_t k, float cut, Sca
   kernels_.freeRuns(ray, mask->size().z(), mask->column(ScanMask::kFree, 0, 0));
 }
 
-/// The line to the middle of an end column over the columns of the mask; t is 1 there.
+/// The line to the middle of the column where a ray ends, over the columns of the mask; t is 1
+/// there.
 void RayCaster::walkTo(int end_x, int end_y, const ScanMask& mask) {
   const int end[2] = {end_x, end_y};
   const float direction[2] = {end_x + 0.5f - origin_.x(), end_y + 0.5f - origin_.y()};

@@ -110,8 +110,7 @@ void RaySlices::closeGap(int before, int after) {
 /// From the origin outwards: columns that are crossed by the same beams are freed together.
 void RaySlices::sweep(int first_cell, ScanMask* mask) {
   const int beams = static_cast<int>(last_.size());
-  ending_.resize(walk_.size, kNone);
-  std::fill_n(ending_.begin(), walk_.size, kNone);
+  ending_.assign(walk_.size, kNone);
   next_.resize(beams);
   alive_.assign((beams + kWordBits - 1) / kWordBits, 0);
   for (int i = 0; i < beams; ++i) {

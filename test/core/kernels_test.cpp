@@ -215,9 +215,45 @@ ColumnLine randomLine(test::Random& random) {
   return line;
 }
 
+/// A line of RaySlices: t is the distance, the slope that of a cell. Origins whose fractions along
+/// both axes belong together make diagonals cross borders of both at once, where rounding decides.
+ColumnLine sliceLine(test::Random& random) {
+  constexpr int kSide = 200;  // of the box, columns
+  const int half_side = test::uniformInt(random, 1, kSide / 2);
+  const int cell = test::chance(random, 0.5) ? half_side * (test::chance(random, 0.5) ? 1 : -1)
+                                             : test::uniformInt(random, -half_side, half_side);
+  const double fraction = test::uniformReal(random, 0.0, 1.0);
+  const double noise = test::uniformReal(random, -1e-5, 1e-5);
+  const double other = test::chance(random, 0.5) ? fraction + noise : 1.0 - fraction + noise;
+  const auto origin = static_cast<float>(kSide / 2 + fraction);
+  const auto minor_origin =
+      static_cast<float>(test::uniformInt(random, 0, kSide - 2) + std::abs(other));
+  const bool forward = test::chance(random, 0.5);
+  const auto start = static_cast<int>(origin);
+  ColumnLine line;
+  line.end_t = static_cast<float>(half_side - test::uniformReal(random, 0.25, 1.0));
+  line.slabs =
+      std::abs(static_cast<int>(forward ? origin + line.end_t : origin - line.end_t) - start) + 1;
+  line.start_t = 0.0f;
+  line.first_border = forward ? start - origin : origin - (start + 1);
+  line.major_step = 1.0f;
+  line.t_per_major = 1.0f;
+  line.minor_origin = minor_origin;
+  line.minor_direction = static_cast<float>(cell) / static_cast<float>(half_side);
+  line.minor_step = cell > 0 ? 1 : -1;
+  line.minor_border = (cell > 0 ? 1.0f : 0.0f) - minor_origin;
+  line.t_per_minor = cell != 0 ? 1.0f / line.minor_direction : 0.0f;
+  line.last_minor_cell = kSide - 1;
+  line.first_column = start * kSide;
+  line.major_offset = forward ? kSide : -kSide;
+  line.minor_offset = 1;
+  return line;
+}
+
 TEST_P(KernelsTest, Walk) {
-  for (int round = 0; round < kRounds; ++round) {
-    const ColumnLine line = randomLine(random_);
+  constexpr int kLines = 5000;  // rounding decides in few of them
+  for (int round = 0; round < kLines; ++round) {
+    const ColumnLine line = round % 10 == 0 ? randomLine(random_) : sliceLine(random_);
     ColumnWalk expected, walk;
     plain_.walk(line, &expected);
     tested_.walk(line, &walk);
@@ -227,6 +263,10 @@ TEST_P(KernelsTest, Walk) {
     for (int k = 0; k <= walk.size; ++k) ASSERT_EQ(walk.t[k], expected.t[k]) << k;
     for (int i = 0; i <= line.slabs; ++i) {
       ASSERT_EQ(walk.first_of_slab[i], expected.first_of_slab[i]) << i;
+    }
+    for (int i = 0; i < line.slabs; ++i) {
+      const int columns = walk.first_of_slab[i + 1] - walk.first_of_slab[i];
+      ASSERT_TRUE(columns == 1 || columns == 2) << columns << " in slab " << i;
     }
   }
 }

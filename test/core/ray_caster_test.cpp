@@ -240,6 +240,26 @@ TEST(RayCasterTest, BetweenTheRaysThatPassCutRaysFreeNothing) {
   EXPECT_EQ(free.count({8, 1, 34}), 1u);
 }
 
+TEST(RayCasterTest, RaysAtTheCubesLimitStayInTheTouchedColumns) {
+  // As far along x as the largest cube, half a cell beside the middle of a cell along y.
+  const VoxelBox box{{0, 0, 0}, {600, 100, 1}};
+  RayCaster caster{VoxelLattice(kResolution), 0.0};
+  ScanMask mask;
+  for (int y = 4; y < 100; ++y) {
+    RangeData scan;
+    scan.origin = Eigen::Vector3d(0.5, 3.0, 0.5) * kResolution;
+    const Eigen::Vector3d end = Eigen::Vector3d(512.5, y + 0.5, 0.5) * kResolution;
+    scan.misses.push_back((end - scan.origin).cast<float>());
+    caster.cast(scan, box, &mask);
+    for (int x = 500; x < 520; ++x) {
+      for (int column = 0; column < 100; ++column) {
+        const bool is_touched = mask.touched().containsColumn(x, column);
+        ASSERT_TRUE(is_touched || !mask.any(ScanMask::kFree, x, column)) << y << ", " << column;
+      }
+    }
+  }
+}
+
 TEST(RayCasterTest, RaysFromAboveOrBelowFreeNothingBeyondTheBox) {
   // A fan of rays that are cut one after the other, from a sensor beyond the box's top or floor.
   constexpr int kHeight = 20;  // of 64 bits in a word

@@ -142,7 +142,8 @@ class RayOracle {
     const auto from_low = (origin_ - box_.min.cast<long double>()).array();
     const auto to_high = (box_.max.cast<long double>() - origin_).array();
     const bool is_inside = (from_low >= -tolerance).all() && (to_high >= -tolerance).all();
-    return round_rays_ && is_inside && major(ray) > 0.0L && major(ray) <= half_side + tolerance &&
+    return round_rays_ && is_inside && major(ray) > 0.0L &&
+           major(ray) <= half_side - 0.25L + tolerance &&
            std::abs(ray.z()) <= major(ray) + tolerance;
   }
 

@@ -93,6 +93,7 @@ inline void roundRays(const DirectionCube& cube, const RayEnds& ends, const std:
                       int count, float cut, CubeRays* rays) {
   rays->reserve(count);
   const float half_side = static_cast<float>(cube.half_side);
+  const float reach = half_side - DirectionCube::kSlack;
   const float to_cell = half_side + 0.5f;  // of a coordinate in the middle of the cell
   const int last_cell = cube.side() - 1;
   for (int i = 0; i < count; ++i) {
@@ -104,8 +105,7 @@ inline void roundRays(const DirectionCube& cube, const RayEnds& ends, const std:
     const bool is_x = std::abs(x) >= std::abs(y);
     const float major = is_x ? x : y;
     const float distance = std::abs(major);
-    const bool is_rounded =
-        (distance > 0.0f) & (distance <= half_side) & (std::abs(rise) <= distance);
+    const bool is_rounded = (distance > 0.0f) & (distance <= reach) & (std::abs(rise) <= distance);
     const float to_face = half_side / distance;
     const float length = std::sqrt(x * x + y * y + rise * rise);
     const int face = (is_x ? 0 : 2) + (major < 0.0f ? 1 : 0);

@@ -45,8 +45,12 @@ HWY_INLINE EndBox endBox(const EndPoints& points) {
   const Floats f;
   const auto sizeOf = [&](int axis)
                           HWY_ATTR { return hn::Set(f, static_cast<float>(points.size[axis])); };
-  return {hn::Set(f, points.to_voxels), hn::Set(f, points.origin[0]), hn::Set(f, points.origin[1]),
-          hn::Set(f, points.origin[2]), sizeOf(0),                    sizeOf(1),
+  return {hn::Set(f, points.to_voxels),
+          hn::Set(f, points.origin[0]),
+          hn::Set(f, points.origin[1]),
+          hn::Set(f, points.origin[2]),
+          sizeOf(0),
+          sizeOf(1),
           sizeOf(2)};
 }
 
@@ -222,6 +226,7 @@ void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_
   rays->reserve(count);
   const auto half = hn::Set(f, 0.5f);
   const auto half_side = hn::Set(f, static_cast<float>(cube.half_side));
+  const auto reach = hn::Sub(half_side, hn::Set(f, DirectionCube::kSlack));
   const auto to_cell = hn::Add(half_side, half);
   const auto last_cell = hn::Set(d, cube.side() - 1);
   const auto toCenter = [&](IntVector cell, float origin) HWY_ATTR {
@@ -240,9 +245,8 @@ void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_
     const auto major = hn::IfThenElse(is_x, x, y);
     const auto minor = hn::IfThenElse(is_x, y, x);
     const auto distance = hn::Abs(major);
-    const auto is_rounded =
-        hn::And(hn::And(hn::Gt(distance, hn::Zero(f)), hn::Le(distance, half_side)),
-                hn::Le(hn::Abs(rise), distance));
+    const auto is_rounded = hn::And(hn::And(hn::Gt(distance, hn::Zero(f)), hn::Le(distance, reach)),
+                                    hn::Le(hn::Abs(rise), distance));
     const auto to_face = hn::Div(half_side, distance);
     const auto length =
         hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(rise, rise)));
@@ -266,10 +270,12 @@ void roundRays(const DirectionCube& cube, const RayEnds& ends, const std::int32_
 void walk(const ColumnLine& line, ColumnWalk* walk) {
   const Floats f;
   const Ints d;
+  const hn::RebindToUnsigned<Ints> u;
   const int lanes = static_cast<int>(hn::Lanes(d));
   walk->reserve(line.slabs);
   std::int32_t* const walk_column = walk->column.data();
   float* const walk_t = walk->t.data();
+  std::int32_t* const first_of_slab = walk->first_of_slab.data();
   const std::int32_t second_offset = line.minor_step * line.minor_offset;
   const int slabs = line.slabs;
 
@@ -300,8 +306,8 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
     const auto cell = hn::ConvertTo(d, hn::Add(minor_origin, hn::Mul(minor_direction, t)));
     return hn::Min(hn::Max(cell, hn::Zero(d)), last_minor_cell);
   };
-  // Each border of the minor axis that was crossed before a slab has added a column.
-  const auto first_cell = minorCell(borderT(hn::Zero(d)));
+  // Of lane i, a bit for each of the lanes before it.
+  const auto before = hn::Sub(hn::Shl(hn::Set(u, 1), hn::Iota(u, 0)), hn::Set(u, 1));
   std::size_t size = 0;
   for (int i = 0; i < slabs; i += lanes) {
     const auto slab = hn::Iota(d, i);
@@ -316,15 +322,18 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
     const auto t_second = hn::Min(hn::Max(crossing, t_in), t_out);
     const auto in_line = hn::Lt(slab, end);
     const auto has_second = hn::And(in_line, hn::Ne(cell, next_cell));
-    hn::StoreU(hn::Add(slab, hn::Abs(hn::Sub(cell, first_cell))), d,
-               walk->first_of_slab.data() + i);
 
     // Both columns of each slab side by side; the second is kept when there is one.
     HWY_ALIGN std::int32_t columns[2 * hn::MaxLanes(Ints())];
     HWY_ALIGN float t[2 * hn::MaxLanes(Floats())];
     hn::StoreInterleaved2(first, second, d, columns);
     hn::StoreInterleaved2(t_in, t_second, f, t);
+    const std::uint64_t seconds = maskBits(d, has_second);
     if constexpr (kPacksLanes) {
+      const auto earlier = hn::And(hn::Set(u, static_cast<std::uint32_t>(seconds)), before);
+      const auto index =
+          hn::Add(hn::Iota(u, static_cast<std::uint32_t>(size)), hn::PopulationCount(earlier));
+      hn::StoreU(hn::BitCast(d, index), d, first_of_slab + i);
       HWY_ALIGN std::int32_t keep[2 * hn::MaxLanes(Ints())];
       hn::StoreInterleaved2(hn::VecFromMask(d, in_line), hn::VecFromMask(d, has_second), d, keep);
       for (int half = 0; half < 2 * lanes; half += lanes) {
@@ -333,17 +342,17 @@ void walk(const ColumnLine& line, ColumnWalk* walk) {
         size += pack(d, hn::Load(d, columns + half), kept, walk_column + size);
       }
     } else {
-      const std::uint64_t seconds = maskBits(d, has_second);
       const int count = std::min(lanes, slabs - i);
       for (int k = 0; k < count; ++k) {
         std::memcpy(walk_column + size, columns + 2 * k, 2 * sizeof(std::int32_t));
         std::memcpy(walk_t + size, t + 2 * k, 2 * sizeof(float));
+        first_of_slab[i + k] = static_cast<std::int32_t>(size);
         size += 1 + ((seconds >> k) & 1u);
       }
     }
   }
   walk->t[size] = line.end_t;
-  walk->first_of_slab[slabs] = static_cast<std::int32_t>(size);
+  first_of_slab[slabs] = static_cast<std::int32_t>(size);
   walk->size = static_cast<int>(size);
 }
 
