@@ -46,7 +46,7 @@ std::string missingInput(const InputTopics& topics, const InputTotals& now) {
   for (std::size_t i = 0; i < topics.sensors.size(); ++i) {
     add(named(topics.sensors[i].name, missingAt(topics.sensors[i], now.sensors[i])), &missing);
   }
-  if (missing.empty() && now.poses == 0) missing = "no poses received on " + topics.poses;
+  if (now.poses == 0) add("no poses received on " + topics.poses, &missing);
   return missing.empty() ? "" : missing + ": check that it is published and remapped";
 }
 

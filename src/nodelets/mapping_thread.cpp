@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <future>
+#include <stdexcept>
 #include <utility>
 
 #include "fiimap/ros/stamps.h"
@@ -26,6 +27,10 @@ MappingThread::MappingThread(const MapperConfig& mapper_config, const NodeConfig
       synchronizer_(node_config, this),
       ready_(static_cast<std::size_t>(node_config.ready_queue_size), sensors_.size()),
       queue_(static_cast<std::size_t>(node_config.scan_queue_size), sensors_.size()) {
+  if (mapper_config.sensorCount() != sensors_.size()) {
+    throw std::invalid_argument("the map has " + std::to_string(mapper_config.sensorCount()) +
+                                " sensors, the node " + std::to_string(sensors_.size()));
+  }
   counters_.sensors.resize(node_config.sensors.size());
   published_counters_ = counters_;
 }

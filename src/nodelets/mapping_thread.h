@@ -49,7 +49,8 @@ class MapObserver {
 class MappingThread : private ScanListener {
  public:
   /// \param handle where readers get the snapshots; \param observer must outlive this object.
-  /// \throws std::invalid_argument when the configuration is not valid.
+  /// \throws std::invalid_argument when a configuration is not valid, or when they have different
+  /// numbers of sensors.
   MappingThread(const MapperConfig& mapper_config, const NodeConfig& node_config,
                 std::shared_ptr<MapHandle> handle, MapObserver* observer);
   ~MappingThread() override { stop(); }

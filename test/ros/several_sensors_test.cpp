@@ -111,8 +111,7 @@ TEST_F(SeveralSensorsTest, EachHasItsOwnTimeOffset) {
   useConfig(config);
   addBothInfos();
   addPoses(0.0, 0.5);
-  addScan(kFront, 0.3);
-  addScan(kLidar, 0.3);
+  for (const std::size_t sensor : {kFront, kLidar}) addScan(sensor, 0.3);
   ASSERT_EQ(diary_.scans.size(), 2u);
   EXPECT_NEAR(diary_.scans[0].T_W_B.translation().x(), 0.3, 1e-6);
   EXPECT_NEAR(diary_.scans[1].T_W_B.translation().x(), 0.1, 1e-6);
@@ -212,12 +211,10 @@ TEST_F(SeveralSensorsTest, ALoopingBagStartsAnewOnce) {
 TEST_F(SeveralSensorsTest, ScansAloneTellOfALoopingBagOnceAndWhose) {
   addBothInfos();
   addPoses(10.0, 11.5);
-  addScan(kFront, 11.0);
-  addScan(kLidar, 11.0);
+  for (const std::size_t sensor : {kFront, kLidar}) addScan(sensor, 11.0);
   const std::size_t before = diary_.events.size();
   addScan(kLidar, 1.0);
-  addScan(kFront, 1.0);
-  addScan(kFront, 1.05);
+  for (const double seconds : {1.0, 1.05}) addScan(kFront, seconds);
   addScan(kLidar, 1.1);
   EXPECT_EQ(diary_.events.size(), before + 1);
   EXPECT_EQ(diary_.events.back(), "jump");
@@ -231,11 +228,9 @@ TEST_F(SeveralSensorsTest, ScansAloneTellOfALoopingBagOnceAndWhose) {
 TEST_F(SeveralSensorsTest, AWrongStampOfOneCostsTheOthersNothing) {
   addPoses(0.0, 0.5);
   addBothInfos();
-  addScan(kFront, 0.1);
-  addScan(kLidar, 0.1);
+  for (const std::size_t sensor : {kFront, kLidar}) addScan(sensor, 0.1);
   addScan(kLidar, 900.0);
-  addScan(kFront, 0.2);
-  addScan(kLidar, 0.2);
+  for (const std::size_t sensor : {kFront, kLidar}) addScan(sensor, 0.2);
   EXPECT_EQ(diary_.events, (Events{"0+", "2+", "0+", "2 stale_stamp", "2+"}));
 }
 
@@ -248,7 +243,6 @@ TEST_F(SeveralSensorsTest, AWrongFirstStampOfALateSensorCostsTheOthersNothing) {
 }
 
 TEST_F(SeveralSensorsTest, WithoutPosesTheOtherSensorsTellOfAWrongFirstStamp) {
-  addBothInfos();
   addScan(kFront, 100.0);
   for (const double seconds : {160.0, 100.1, 100.2}) addScan(kLidar, seconds);
   EXPECT_EQ(diary_.events, Events{"2 stale_stamp"});
@@ -257,8 +251,7 @@ TEST_F(SeveralSensorsTest, WithoutPosesTheOtherSensorsTellOfAWrongFirstStamp) {
 TEST_F(SeveralSensorsTest, WhatComesLateFromBeforeAJumpMakesNoOther) {
   addBothInfos();
   addPoses(10.0, 11.5);
-  addScan(kFront, 11.0);
-  addScan(kLidar, 11.0);
+  for (const std::size_t sensor : {kFront, kLidar}) addScan(sensor, 11.0);
   for (const double seconds : {1.0, 1.05}) addScan(kFront, seconds);
   addScan(kLidar, 11.1);
   addPose(11.5);
