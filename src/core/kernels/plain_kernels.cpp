@@ -1,5 +1,6 @@
 #include "fiimap/kernels.h"
 #include "plain_depth_kernels.h"
+#include "plain_end_kernels.h"
 #include "plain_fusion_kernels.h"
 #include "plain_inflation_kernels.h"
 #include "plain_ray_kernels.h"

@@ -15,6 +15,7 @@
 // Without vectors the plain kernels do.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "vector_depth_kernels.h"
+#include "vector_end_kernels.h"
 #include "vector_fusion_kernels.h"
 #include "vector_inflation_kernels.h"
 #include "vector_ray_kernels.h"
