@@ -151,21 +151,31 @@ void MappingNodelet::onDiagnosticsTimer() {
   NODELET_WARN("%s", missing.c_str());
 }
 
+void MappingNodelet::publishHandle(const Snapshot& snapshot) {
+  const auto message = boost::make_shared<MapHandleMessage>();
+  message->info = toMapInfo(snapshot, handle_->id(), node_config_.map_frame);
+  message->handle = handle_;
+  handle_publisher_.publish(message);
+}
+
 void MappingNodelet::onUpdate(const MapUpdate& update) {
   const Snapshot& snapshot = *update.snapshot;
   const std::string& frame = node_config_.map_frame;
-  const auto message = boost::make_shared<MapHandleMessage>();
-  message->info = toMapInfo(snapshot, handle_->id(), frame);
-  message->handle = handle_;
-  handle_publisher_.publish(message);
+  publishHandle(snapshot);
   statistics_publisher_.publish(boost::make_shared<Statistics>(toStatistics(update, frame)));
 
-  const VoxelBox update_range =
+  update_box_ =
       VoxelLattice::boxAround(snapshot.lattice().indexOf(update.pose.vehicle_W),
-                              snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()));
-  clouds_->offer(update.snapshot, update_range.intersection(snapshot.window()));
+                              snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()))
+          .intersection(snapshot.window());
+  clouds_->offer(update.snapshot, update_box_);
   vehicle_->add(toPose(update.T_W_B, toHeader(update.pose.stamp_ns, frame)));
   diagnostics_->onUpdate(update);
+}
+
+void MappingNodelet::onEdit(const std::shared_ptr<const Snapshot>& snapshot) {
+  publishHandle(*snapshot);
+  clouds_->offer(snapshot, update_box_);
 }
 
 void MappingNodelet::onReset(const std::string& why) {

@@ -43,9 +43,11 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   bool onBoxService(GetBox::Request& request, GetBox::Response& response);
   bool onSaveService(SaveMap::Request& request, SaveMap::Response& response);
   void onDiagnosticsTimer();
+  void publishHandle(const Snapshot& snapshot);
 
   // MapObserver, on the mapping thread.
   void onUpdate(const MapUpdate& update) override;
+  void onEdit(const std::shared_ptr<const Snapshot>& snapshot) override;
   void onReset(const std::string& why) override;
   void onDrop(const Drop& drop) override;
   void onWarning(const std::string& text) override;
@@ -53,6 +55,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   MapperConfig mapper_config_;
   NodeConfig node_config_;
   std::shared_ptr<MapHandle> handle_;
+  VoxelBox update_box_;  // of the newest scan; of the mapping thread alone
   // When a drop was warned of, by reason and sensor; of the mapping thread alone.
   std::map<std::pair<DropReason, std::string>, std::chrono::steady_clock::time_point> warned_;
 

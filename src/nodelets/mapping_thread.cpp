@@ -1,6 +1,7 @@
 #include "mapping_thread.h"
 
 #include <chrono>
+#include <exception>
 #include <future>
 #include <stdexcept>
 #include <utility>
@@ -60,11 +61,30 @@ void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
 }
 
 bool MappingThread::reset() {
+  return doBetweenScans([this] { forget("reset was asked for"); });
+}
+
+bool MappingThread::edit(std::function<void(Mapper*)> function) {
+  return doBetweenScans([this, function = std::move(function)] {
+    function(&mapper_);
+    // Before the first scan there is no map that readers could get.
+    if (!handle_->latest()) return;
+    const std::shared_ptr<const Snapshot> snapshot = mapper_.snapshot();
+    handle_->publish(snapshot);
+    observer_->onEdit(snapshot);
+  });
+}
+
+bool MappingThread::doBetweenScans(std::function<void()> work) {
   auto done = std::make_shared<std::promise<void>>();
   std::future<void> finished = done->get_future();
-  queue_.pushControl([this, done] {
-    forget("reset was asked for");
-    done->set_value();
+  queue_.pushControl([work = std::move(work), done] {
+    try {
+      work();
+      done->set_value();
+    } catch (...) {
+      done->set_exception(std::current_exception());
+    }
   });
   done.reset();
   try {

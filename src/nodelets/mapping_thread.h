@@ -38,6 +38,8 @@ class MapObserver {
   virtual ~MapObserver() = default;
 
   virtual void onUpdate(const MapUpdate& update) = 0;
+  /// The map changed by other means than a scan.
+  virtual void onEdit(const std::shared_ptr<const Snapshot>& /*snapshot*/) {}
   /// Everything was forgotten.
   virtual void onReset(const std::string& why) = 0;
   virtual void onDrop(const Drop& drop) = 0;
@@ -45,7 +47,7 @@ class MapObserver {
 };
 
 /// Owns the Mapper and the one thread that works with it. Its public methods may be called from any
-/// thread; they only enqueue, except reset().
+/// thread; they only enqueue, except reset() and edit().
 class MappingThread : private ScanListener {
  public:
   /// \param handle where readers get the snapshots; \param observer must outlive this object.
@@ -70,6 +72,10 @@ class MappingThread : private ScanListener {
 
   /// Forgets the map and waits until that is done. \return false when the thread is stopping.
   bool reset();
+  /// Lets a function work with the mapper between two scans and waits until it has; then readers
+  /// get the map that it left. \return false when the thread is stopping. Rethrows what the
+  /// function throws, whose map they do not get before the next scan.
+  bool edit(std::function<void(Mapper*)> function);
 
   /// Copy of the counters as of the last step.
   ScanCounters counters() const;
@@ -78,6 +84,7 @@ class MappingThread : private ScanListener {
   void run();
   void step();
   void integrate(const SynchronizedScan& scan);
+  bool doBetweenScans(std::function<void()> work);
   Moment readClocks();
   void forget(const std::string& why);
   void drop(const Drop& drop, std::size_t sensor);

@@ -83,6 +83,7 @@ class FaultRig : private MapObserver {
   void waitUntilBlocked();
   void release();
 
+  MappingThread& mapping() { return *mapping_; }
   RigState state() const;
   /// Good frames that were flown.
   std::uint64_t flown() const { return flown_; }

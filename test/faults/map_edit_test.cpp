@@ -1,0 +1,58 @@
+// Edits of the map between scans, as services and live tuning make them.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "fault_rig.h"
+
+namespace fiimap {
+namespace {
+
+constexpr double kClock = 100.0;  // s
+
+TEST(MapEdit, ReadersGetTheEditedMap) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  rig.fly(3);
+  const std::shared_ptr<const Snapshot> before = rig.state().snapshot;
+  ASSERT_TRUE(before);
+
+  EXPECT_TRUE(
+      rig.mapping().edit([](Mapper* mapper) { mapper->setInflation(0.5, ElementShape::kCube); }));
+
+  const std::shared_ptr<const Snapshot> after = rig.state().snapshot;
+  EXPECT_EQ(after->info().inflation_radius, 0.5);
+  EXPECT_GT(after->info().sequence, before->info().sequence);
+  EXPECT_EQ(after->info().stamp_ns, before->info().stamp_ns);
+  EXPECT_GT(after->count(Plane::kInflated), before->count(Plane::kInflated));
+}
+
+TEST(MapEdit, BeforeTheFirstScanThereIsStillNoMap) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  EXPECT_TRUE(
+      rig.mapping().edit([](Mapper* mapper) { mapper->setInflation(0.5, ElementShape::kCube); }));
+  EXPECT_FALSE(rig.state().snapshot);
+  rig.fly(1);
+  EXPECT_EQ(rig.state().snapshot->info().inflation_radius, 0.5);
+}
+
+TEST(MapEdit, WhatAnEditThrowsReachesTheCallerAndMappingGoesOn) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  rig.fly(1);
+  const std::shared_ptr<const Snapshot> before = rig.state().snapshot;
+  EXPECT_THROW(rig.mapping().edit([](Mapper*) { throw std::invalid_argument("no"); }),
+               std::invalid_argument);
+  EXPECT_EQ(rig.state().snapshot, before);
+  rig.fly(1);
+  EXPECT_NE(rig.state().snapshot, before);
+}
+
+TEST(MapEdit, IsRefusedWhenTheThreadStops) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  rig.mapping().stop();
+  bool called = false;
+  EXPECT_FALSE(rig.mapping().edit([&](Mapper*) { called = true; }));
+  EXPECT_FALSE(called);
+}
+
+}  // namespace
+}  // namespace fiimap
