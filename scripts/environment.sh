@@ -2,6 +2,8 @@
 
 source_dir="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build_dir="${FIIMAP_BUILD_DIR:-$source_dir/build}"
+# Not in build/: there rosrun looks for no program of a package.
+devel_dir="${FIIMAP_BUILD_DIR:-$source_dir}/devel"
 
 # The system's Python has the ROS modules; one of pyenv or conda ahead in PATH has not.
 export PATH="/usr/bin:/bin:$PATH"

@@ -2,9 +2,9 @@
 """Types the commands of README.md and docs/ as a newcomer would and says which of them fail.
 
   test/docs/follow_docs.py --list             checks that commands.yaml says of each what to do
-  test/docs/follow_docs.py --build FOLDER [FILE...]   runs them; FILE: only those of README.md, ...
+  test/docs/follow_docs.py --devel FOLDER [FILE...]   runs them; FILE: only those of README.md, ...
 
-FOLDER is the build. Each command runs in a folder with the recordings that commands.yaml names.
+FOLDER is what the build made to be sourced. Each command runs in a folder with the recordings that commands.yaml names.
 Exits with 1 when a command fails, or when commands.yaml and the documents disagree.
 """
 import argparse
@@ -27,7 +27,7 @@ DOCUMENTS = ['README.md', 'CONTRIBUTING.md', *sorted(
     str(path.relative_to(ROOT)) for path in (ROOT / 'docs').glob('*.md'))]
 BLOCK = re.compile(r'^```(\w*)\n(.*?)^```', re.DOTALL | re.MULTILINE)
 # What a command begins with; other blocks are layouts, output and code.
-PROGRAM = re.compile(r'^(\$ )?(scripts/|build/|test/|roslaunch |rosrun |rosservice |rostopic |fiimap_|'
+PROGRAM = re.compile(r'^(\$ )?(scripts/|devel/|test/|roslaunch |rosrun |rosservice |rostopic |fiimap_|'
                      r'cd |git |mv |cp |config=|apt |sudo |catkin|dpkg|source )')
 PATIENCE = 600.0    # s
 STAYS_ALIVE = 3.0   # s that a node must live after it is there
@@ -62,7 +62,7 @@ def disagreements(plan):
 class Follower:
     """Runs commands on a screen of its own, each with a ROS master of its own."""
 
-    def __init__(self, build, folder):
+    def __init__(self, devel, folder):
         self.folder = folder
         with socket.socket() as free:
             free.bind(('localhost', 0))
@@ -70,8 +70,8 @@ class Follower:
         self.environment = {
             **os.environ, 'ROS_MASTER_URI': f'http://localhost:{self.port}',
             'ROS_HOSTNAME': 'localhost', 'ROS_HOME': str(folder / 'ros'), 'LIBGL_ALWAYS_SOFTWARE': '1'}
-        self.setup = f'source {shlex.quote(str(build))}/devel/setup.bash && ' \
-                     f'export PATH={shlex.quote(str(build))}/devel/lib/fiimap:$PATH && '
+        self.setup = f'source {shlex.quote(str(devel))}/setup.bash && ' \
+                     f'export PATH={shlex.quote(str(devel))}/lib/fiimap:$PATH && '
         self.screen = subprocess.Popen(['Xvfb', '-displayfd', '1', '-screen', '0', '800x600x24'],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.environment['DISPLAY'] = ':' + self.screen.stdout.readline().decode().strip()
@@ -132,14 +132,14 @@ class Follower:
         return None
 
 
-def follow(plan, build, documents):
+def follow(plan, devel, documents):
     entries = {entry['command']: entry for entry in plan['commands']}
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for name, source in plan['files'].items():
             (folder / name).symlink_to(ROOT / source)
-        follower = Follower(build.resolve(), folder)
+        follower = Follower(devel.resolve(), folder)
         try:
             for document in documents:
                 for command in commands_of(document):
@@ -162,11 +162,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--list', action='store_true', help='check commands.yaml only')
-    parser.add_argument('--build', type=pathlib.Path, help='where the package was built')
+    parser.add_argument('--devel', type=pathlib.Path, help='the folder with setup.bash')
     parser.add_argument('documents', nargs='*', metavar='FILE', default=DOCUMENTS)
     args = parser.parse_args()
-    if args.list == bool(args.build):
-        parser.error('one of --list and --build')
+    if args.list == bool(args.devel):
+        parser.error('one of --list and --devel')
     for document in args.documents:
         if document not in DOCUMENTS:
             parser.error(f'{document} is none of {", ".join(DOCUMENTS)}')
@@ -177,7 +177,7 @@ def main():
         print(sentence)
     if args.list or wrong:
         sys.exit(bool(wrong))
-    failures = follow(plan, args.build, args.documents)
+    failures = follow(plan, args.devel, args.documents)
     print(f'{failures} commands failed')
     sys.exit(bool(failures))
 
