@@ -24,6 +24,12 @@ struct VirtualWalls {
   double ceiling = std::numeric_limits<double>::infinity();
 };
 
+/// Voxels that follow each other along z.
+struct VoxelRun {
+  VoxelIndex first;
+  int count;
+};
+
 /// An immutable view of the whole map at one moment: window, cells, stamp and sequence number
 /// belong together. Reading takes no lock, from any number of threads; it stays valid as long as
 /// someone holds it, even after the mapper is gone.
@@ -56,14 +62,33 @@ class Snapshot {
 
   /// Measured voxels (virtual walls add none) of a plane inside a box, sorted by x, then y.
   std::vector<VoxelIndex> voxels(Plane plane, const VoxelBox& box) const;
+  /// Voxels of the window that are set in one of two snapshots only, sorted by x, then y, then z;
+  /// what lies outside of a snapshot's window is not set in it. Where both share a tile it costs no
+  /// time, so that cost follows change.
+  /// \param before of the same mapper, in any order of time; null: one without any voxel.
+  std::vector<VoxelRun> changes(Plane plane, const Snapshot* before) const;
   /// Number of set voxels of a plane in the whole window.
   std::int64_t count(Plane plane) const { return counts_[static_cast<int>(plane)]; }
 
  private:
+  /// A tile that differs between two snapshots; null where nothing was ever seen.
+  struct ChangedTile {
+    int first_y, end_y;  // its columns in the window
+    const std::uint64_t *then, *now;
+  };
+
   /// The tile that holds column (x, y), or null where nothing was ever seen.
   const std::uint64_t* tileAt(int x, int y) const { return tiles_[ring_.slotOf(x, y)].get(); }
+  /// Whether columns of the tile that begins at a column lie in the window.
+  bool touches(int tile_x, int tile_y) const {
+    return tile_x < window().max.x() && tile_x + kTileSide > window().min.x() &&
+           tile_y < window().max.y() && tile_y + kTileSide > window().min.y();
+  }
   bool test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const;
   bool beyondWalls(double z) const { return z < info_.walls.floor || z > info_.walls.ceiling; }
+  std::vector<ChangedTile> changedTiles(int tile_x, const Snapshot* before) const;
+  void appendChanges(Plane plane, const VoxelBox& kept, int x, const ChangedTile& tile,
+                     std::vector<VoxelRun>* runs) const;
   Occupancy measuredOccupancy(const VoxelIndex& v) const;
   Inflation measuredInflation(const VoxelIndex& v) const;
 
