@@ -5,6 +5,7 @@
 #include <string>
 
 #include "accuracy_command.h"
+#include "bandwidth_command.h"
 #include "compare_command.h"
 #include "health/health_command.h"
 #include "report_command.h"
@@ -32,6 +33,7 @@ constexpr char kUsage[] =
     "turns\n"
     "  fiimap_eval truth BAG [options]     compares the map with the exact scene of a synthetic\n"
     "                                      recording\n"
+    "  fiimap_eval bandwidth BAG [options] tells what the clouds and ~changes take on a link\n"
     "  fiimap_eval report BAG... -o DIR    all of these, as a page to look at; --help tells more\n"
     "  fiimap_eval parameters              lists the parameters of map and node: name, default,\n"
     "                                      unit, allowed values, meaning\n\n"
@@ -122,6 +124,10 @@ po::options_description describe(fiimap::TruthOptions* truth) {
   return options;
 }
 
+po::options_description describe(fiimap::BandwidthOptions* bandwidth) {
+  return describe("Options of bandwidth", &bandwidth->input);
+}
+
 /// Reads what follows the command.
 /// \return false when help was asked for, and given.
 bool parse(int argc, char** argv, const po::options_description& visible,
@@ -156,18 +162,21 @@ int printHelp() {
   fiimap::SweepOptions sweep;
   fiimap::CompareOptions compare;
   fiimap::TruthOptions truth;
+  fiimap::BandwidthOptions bandwidth;
   std::cout << kUsage << describe(&run) << '\n'
             << describe(&health) << '\n'
             << describe(&accuracy) << '\n'
             << describe(&sweep) << '\n'
             << describe(&compare) << '\n'
-            << describe(&truth);
+            << describe(&truth) << '\n'
+            << describe(&bandwidth);
   return 0;
 }
 
 int dispatch(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "run") return runCommand(argc, argv, fiimap::run);
+  if (command == "bandwidth") return runCommand(argc, argv, fiimap::measureBandwidth);
   if (command == "accuracy") return runCommand(argc, argv, fiimap::evaluateAccuracy);
   if (command == "health") return runCommand(argc, argv, fiimap::examineRecording);
   if (command == "report") return fiimap::makeReport(argc - 2, argv + 2);
@@ -180,8 +189,8 @@ int dispatch(int argc, char** argv) {
     return 0;
   }
   throw std::invalid_argument(
-      "the command must be run, health, accuracy, sweep, compare, truth, report or parameters; see "
-      "fiimap_eval --help");
+      "the command must be run, health, accuracy, sweep, compare, truth, bandwidth, report or "
+      "parameters; see fiimap_eval --help");
 }
 
 }  // namespace
