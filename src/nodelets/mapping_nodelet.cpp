@@ -93,6 +93,8 @@ void MappingNodelet::advertise() {
   handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue, latch);
   clouds_ =
       std::make_unique<CloudPublisher>(node, node_config_.map_frame, node_config_.publish_rate);
+  changes_ = std::make_unique<ChangesPublisher>(
+      node, node_config_.map_frame, node_config_.publish_rate, node_config_.keyframe_period);
   vehicle_ =
       std::make_unique<VehiclePublisher>(node, node_config_.map_frame, node_config_.publish_rate);
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
@@ -169,6 +171,7 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
                               snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()))
           .intersection(snapshot.window());
   clouds_->offer(update.snapshot, update_box_);
+  changes_->offer(update.snapshot);
   vehicle_->add(toPose(update.T_W_B, toHeader(update.pose.stamp_ns, frame)));
   diagnostics_->onUpdate(update);
 }
@@ -176,11 +179,13 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
 void MappingNodelet::onEdit(const std::shared_ptr<const Snapshot>& snapshot) {
   publishHandle(*snapshot);
   clouds_->offer(snapshot, update_box_);
+  changes_->offer(snapshot);
 }
 
 void MappingNodelet::onReset(const std::string& why) {
   NODELET_WARN("the map was forgotten: %s", why.c_str());
   clouds_->clear();
+  changes_->offer(nullptr);
   vehicle_->clear();
   diagnostics_->onReset();
 }

@@ -14,6 +14,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include "changes_publisher.h"
 #include "cloud_publisher.h"
 #include "fiimap/map_handle.h"
 #include "fiimap/ros/node_config.h"
@@ -62,6 +63,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   ros::Publisher statistics_publisher_;
   ros::Publisher handle_publisher_;
   std::unique_ptr<CloudPublisher> clouds_;
+  std::unique_ptr<ChangesPublisher> changes_;
   std::unique_ptr<VehiclePublisher> vehicle_;
   std::unique_ptr<MappingThread> mapping_;
   std::unique_ptr<InputSubscriber> inputs_;

@@ -11,7 +11,8 @@ namespace fiimap {
 namespace {
 
 constexpr double kMinSeconds = 0.001;
-constexpr double kMaxRate = 1000.0;  // Hz
+constexpr double kMaxRate = 1000.0;         // Hz
+constexpr double kMinKeyframePeriod = 0.1;  // s
 constexpr int kMaxQueue = 1000;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -48,7 +49,9 @@ std::vector<Parameter> queueAndOutputParameters(NodeConfig* c) {
                        "how many scans with pose may wait for the map; the newest win"),
 
       numberParameter("publish_rate", &c->publish_rate, kMinSeconds, kMaxRate, "Hz",
-                      "clouds are published at most this often"),
+                      "clouds and changes are published at most this often"),
+      numberParameter("keyframe_period", &c->keyframe_period, kMinKeyframePeriod, kMaxSeconds, "s",
+                      "time between whole maps on ~changes"),
       textParameter("save_directory", &c->save_directory,
                     "where ~save_map writes; empty: it refuses"),
   };

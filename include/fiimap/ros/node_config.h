@@ -57,6 +57,7 @@ struct NodeConfig : SensorConfig {
   int ready_queue_size = 2;
 
   double publish_rate = 10.0;
+  double keyframe_period = 10.0;
   std::string save_directory;
 
   /// All sensors, at least one.
