@@ -97,6 +97,8 @@ void MappingNodelet::advertise() {
       node, node_config_.map_frame, node_config_.publish_rate, node_config_.keyframe_period);
   vehicle_ =
       std::make_unique<VehiclePublisher>(node, node_config_.map_frame, node_config_.publish_rate);
+  status_ =
+      std::make_unique<StatusPublisher>(node, node_config_.map_frame, node_config_.publish_rate);
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
                                                       [this] { return mapping_->counters(); });
 
@@ -173,6 +175,7 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
   clouds_->offer(update.snapshot, update_box_);
   changes_->offer(update.snapshot);
   vehicle_->add(toPose(update.T_W_B, toHeader(update.pose.stamp_ns, frame)));
+  status_->offer(update);
   diagnostics_->onUpdate(update);
 }
 
@@ -187,6 +190,7 @@ void MappingNodelet::onReset(const std::string& why) {
   clouds_->clear();
   changes_->offer(nullptr);
   vehicle_->clear();
+  status_->clear();
   diagnostics_->onReset();
 }
 

@@ -21,6 +21,7 @@
 #include "input_subscriber.h"
 #include "mapping_diagnostics.h"
 #include "mapping_thread.h"
+#include "status_publisher.h"
 #include "vehicle_publisher.h"
 
 namespace fiimap {
@@ -65,6 +66,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   std::unique_ptr<CloudPublisher> clouds_;
   std::unique_ptr<ChangesPublisher> changes_;
   std::unique_ptr<VehiclePublisher> vehicle_;
+  std::unique_ptr<StatusPublisher> status_;
   std::unique_ptr<MappingThread> mapping_;
   std::unique_ptr<InputSubscriber> inputs_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
