@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fiimap/ros/frame_id.h"
+#include "fiimap/ros/pose_messages.h"
 #include "fiimap/ros/stamps.h"
 
 namespace fiimap {
@@ -10,19 +11,6 @@ namespace {
 
 std::string secondsText(const ros::Time& from, const ros::Time& to) {
   return std::to_string(secondsBetween(from, to)) + " s";
-}
-
-geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header,
-                                            const std::string& child_frame,
-                                            const geometry_msgs::Pose& pose) {
-  geometry_msgs::TransformStamped transform;
-  transform.header = header;
-  transform.child_frame_id = child_frame;
-  transform.transform.translation.x = pose.position.x;
-  transform.transform.translation.y = pose.position.y;
-  transform.transform.translation.z = pose.position.z;
-  transform.transform.rotation = pose.orientation;
-  return transform;
 }
 
 ResolvedPose unresolved(ResolvedPose::State state, const Drop& why) {
@@ -67,13 +55,9 @@ PoseResolver::PoseResolver(const NodeConfig& config)
       history_(config.pose_history, config.max_pose_gap),
       tree_(config.pose_history) {}
 
-void PoseResolver::add(const nav_msgs::Odometry& odometry) {
-  add(toTransform(odometry.header, odometry.child_frame_id, odometry.pose.pose));
-}
+void PoseResolver::add(const nav_msgs::Odometry& odometry) { add(toTransform(odometry)); }
 
-void PoseResolver::add(const geometry_msgs::PoseStamped& pose) {
-  add(toTransform(pose.header, "", pose.pose));
-}
+void PoseResolver::add(const geometry_msgs::PoseStamped& pose) { add(toTransform(pose)); }
 
 void PoseResolver::add(const geometry_msgs::TransformStamped& transform) {
   try {

@@ -212,4 +212,15 @@ void requireSoundBag(const std::string& file) {
   if (check.hasFormat2()) check.run();
 }
 
+void openBag(const std::string& file, rosbag::Bag* bag) {
+  requireSoundBag(file);
+  try {
+    bag->open(file, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& error) {
+    throw std::invalid_argument(
+        "cannot read the bag " + file +
+        ": it is missing, cut off or no bag (rosbag reindex may mend it): " + error.what());
+  }
+}
+
 }  // namespace fiimap

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rosbag/bag.h>
+
 #include <string>
 
 namespace fiimap {
@@ -10,5 +12,9 @@ namespace fiimap {
 /// no bags of format 2.0 are left to rosbag. \throws std::invalid_argument that tells where the
 /// file is damaged, or that it cannot be read.
 void requireSoundBag(const std::string& file);
+
+/// Opens a bag to read, if it is sound.
+/// \throws std::invalid_argument that tells why it cannot be read.
+void openBag(const std::string& file, rosbag::Bag* bag);
 
 }  // namespace fiimap

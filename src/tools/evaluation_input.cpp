@@ -5,19 +5,13 @@
 #include "bag_check.h"
 #include "fiimap/ros/parameter_sources.h"
 #include "output_file.h"
+#include "settings.h"
 
 namespace fiimap {
 
 EvaluationInput::EvaluationInput(const InputOptions& options) : options_(options) {
   const ParameterMap given = readSettings();
-  requireSoundBag(options.bag);
-  try {
-    bag_.open(options.bag, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument(
-        "cannot read the bag " + options.bag +
-        ": it is missing, cut off or no bag (rosbag reindex may mend it): " + error.what());
-  }
+  openBag(options.bag, &bag_);
   topics_ = chooseTopics(bag_, given, topics_, &node_);
   if (!options.json.empty()) checkWritable(options.json);
 }
@@ -26,13 +20,7 @@ EvaluationInput::EvaluationInput(const InputOptions& options) : options_(options
 ParameterMap EvaluationInput::readSettings() {
   ParameterMap given;
   if (!options_.config.empty()) given = parameterMapFromYaml(options_.config);
-  for (const std::string& setting : options_.settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw std::invalid_argument("--set " + setting + ": must be name=value");
-    }
-    given[setting.substr(0, equals)] = setting.substr(equals + 1);
-  }
+  for (const auto& [name, value] : parseSettings(options_.settings)) given[name] = value;
   ParameterMap of_topics;
   for (const std::string& name : configure(given, &mapper_, &node_)) {
     const auto value = given.find(name);  // not that of a namespace

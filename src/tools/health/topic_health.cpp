@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "fiimap/ros/stamps.h"
+
 namespace fiimap {
 namespace {
 
@@ -63,26 +65,37 @@ nlohmann::json toJson(const Quantiles& q) {
 
 }  // namespace
 
-TopicHealth healthOf(const rosbag::Bag& bag, const std::string& topic) {
+TopicHealth healthOf(const std::string& topic, const std::string& type, bool has_stamp,
+                     const std::vector<MessageTime>& messages) {
   TopicHealth health;
   health.topic = topic;
-  std::vector<std::uint8_t> buffer;
+  health.type = type;
+  health.has_stamp = has_stamp;
+  health.messages = messages.size();
   std::vector<double> times, delays;
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  ros::Time zero;
-  for (const rosbag::MessageInstance& instance : view) {
-    if (health.messages++ == 0) {
-      health.type = instance.getDataType();
-      health.has_stamp = beginsWithHeader(instance);
-      zero = instance.getTime();
-    }
-    const ros::Time recorded = instance.getTime();
-    const ros::Time time = health.has_stamp ? stampOf(instance, &buffer) : recorded;
-    times.push_back((time - zero).toSec());
-    if (health.has_stamp) delays.push_back((recorded - time).toSec());
+  for (const MessageTime& message : messages) {
+    times.push_back(secondsBetween(messages.front().received, message.stamp));
+    if (has_stamp) delays.push_back(secondsBetween(message.stamp, message.received));
   }
   summarise(times, delays, &health);
   return health;
+}
+
+TopicHealth healthOf(const rosbag::Bag& bag, const std::string& topic) {
+  std::string type;
+  bool has_stamp = false;
+  std::vector<std::uint8_t> buffer;
+  std::vector<MessageTime> messages;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    if (messages.empty()) {
+      type = instance.getDataType();
+      has_stamp = beginsWithHeader(instance);
+    }
+    const ros::Time recorded = instance.getTime();
+    messages.push_back({recorded, has_stamp ? stampOf(instance, &buffer) : recorded});
+  }
+  return healthOf(topic, type, has_stamp, messages);
 }
 
 nlohmann::json toJson(const TopicHealth& health) {

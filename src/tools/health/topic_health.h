@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/time.h>
 #include <rosbag/bag.h>
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,17 @@ struct TopicHealth {
   double least_delay = 0.0;
   bool has_stamp = false;  ///< false: times of recording instead of stamps, no delay
 };
+
+/// When a message was received, or recorded, and how it was stamped.
+struct MessageTime {
+  ros::Time received;
+  ros::Time stamp;  ///< that of receipt for messages without one
+};
+
+/// \param messages in the order of arrival.
+/// \param has_stamp whether they have stamps of their own.
+TopicHealth healthOf(const std::string& topic, const std::string& type, bool has_stamp,
+                     const std::vector<MessageTime>& messages);
 
 /// \throws std::exception when the bag cannot be read.
 TopicHealth healthOf(const rosbag::Bag& bag, const std::string& topic);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "doctor/examination.h"
+
+namespace fiimap {
+
+// The checks in the order in which they are made. Thresholds and reasons are beside them.
+
+/// choose_scans.cpp: depth images or clouds, and the topics that are given names for.
+void chooseScans(Examination* examination);
+/// choose_poses.cpp
+void choosePoses(Examination* examination);
+
+/// image_checks.cpp: whether there is a camera_info that fits.
+void checkCameraInfo(Examination* examination);
+/// image_checks.cpp: pixels without depth, and the unit of the others.
+void checkDepthReadings(Examination* examination);
+/// cloud_checks.cpp: fields, points that are not finite.
+void checkCloudPoints(Examination* examination);
+/// cloud_checks.cpp: clouds that were moved into the world before.
+void checkCloudFrame(Examination* examination);
+
+/// pose_checks.cpp: values that are no poses, in pose messages and in TF.
+void checkPoseValues(Examination* examination);
+/// pose_checks.cpp: map_frame.
+void checkMapFrame(Examination* examination);
+/// body_checks.cpp: body_frame and whether TF leads from it to the sensor.
+void checkBodyFrame(Examination* examination);
+/// mount_checks.cpp: where the camera looks, seen from the body.
+void checkMount(Examination* examination);
+
+/// time_checks.cpp: stamps that are missing, rates, gaps.
+void checkRates(Examination* examination);
+/// time_checks.cpp: whether scans and poses are stamped by one clock.
+void checkClocks(Examination* examination);
+/// time_checks.cpp: use_sim_time and /clock.
+void checkSimulatedTime(Examination* examination);
+
+/// map_checks.cpp: what a mapping node that runs listens to and says.
+void checkRunningMap(Examination* examination);
+
+}  // namespace fiimap

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "doctor/examination.h"
+#include "doctor/trial.h"
+#include "health/topic_health.h"
+
+namespace fiimap {
+
+/// What is wrong or odd with the inputs of a map, and how to start one.
+struct Diagnosis {
+  std::vector<Finding> findings;    ///< errors first
+  std::vector<TopicHealth> topics;  ///< of scans, camera_info and poses that were chosen
+  MapSetup setup;
+  Trial trial;
+  std::vector<std::string> launch_words;  ///< empty where no line would lead to a map
+
+  std::size_t count(Severity severity) const;
+};
+
+/// \throws std::invalid_argument when a wish names no such topic or no such parameter.
+Diagnosis diagnose(const Observation& observation, const DoctorWishes& wishes);
+
+/// For people.
+std::string toText(const Diagnosis& diagnosis, const Observation& observation);
+
+}  // namespace fiimap

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "doctor/frame_graph.h"
+#include "doctor/observation.h"
+#include "fiimap/mapper_config.h"
+#include "fiimap/parameters.h"
+#include "fiimap/ros/node_config.h"
+
+namespace fiimap {
+
+enum class Severity {
+  kNote,     ///< what was chosen or set, and why
+  kWarning,  ///< odd, but it may be meant
+  kError,    ///< there would be no map, or a wrong one
+};
+
+/// Whether the launch line takes care of an error.
+enum class Repair { kNone, kInLaunchLine };
+
+struct Finding {
+  Severity severity = Severity::kNote;
+  std::string what;    ///< sentences with the figures
+  std::string remedy;  ///< a sentence; empty where there is nothing to do
+  Repair repair = Repair::kNone;
+};
+
+/// What the user chose where there is a choice. Empty: found by type.
+struct DoctorWishes {
+  std::string depth_image, camera_info, points;  // topics
+  std::string odom, pose, transform;             // topics; at most one
+  std::string map;                               ///< name of the mapping node
+  ParameterMap parameters;                       ///< of the map
+};
+
+/// The inputs that were found and the parameters that fit them.
+struct MapSetup {
+  std::string depth_image, camera_info;  ///< topics; empty: none
+  std::string points;                    ///< topic; empty: none
+  std::string poses;                     ///< topic; empty: none, or TF
+  bool has_poses = false;                ///< a topic, or TF
+  MapperConfig mapper;
+  NodeConfig node;
+  ParameterMap changes;  ///< parameters beside topics, sensor, pose_source and map_frame to be set
+
+  const std::string& scans() const { return depth_image.empty() ? points : depth_image; }
+};
+
+/// An observation on its way through the checks. Each takes the setup as those before it left it,
+/// says what it finds, and changes the setup where that helps.
+struct Examination {
+  /// \throws std::invalid_argument when a parameter that the user chose is not allowed.
+  Examination(const Observation& observation, const DoctorWishes& wishes);
+
+  const Observation& seen;
+  DoctorWishes wishes;
+  FrameGraph frames;
+  MapSetup setup;
+  ParameterMap given;  ///< parameters of the user or of the node that runs: not open
+  std::vector<Finding> findings;
+
+  bool isGiven(const std::string& parameter) const { return given.count(parameter) != 0; }
+  void note(const std::string& what, const std::string& remedy = "");
+  void warn(const std::string& what, const std::string& remedy);
+  void error(const std::string& what, const std::string& remedy, Repair repair = Repair::kNone);
+  /// Sets a parameter of the map that the launch line must then set.
+  void change(const std::string& parameter, const std::string& value);
+
+  /// Frame and stamps of the scans; there must be some.
+  std::string sensorFrame() const;
+  /// Scans were chosen, and some came.
+  bool hasScans() const;
+};
+
+/// "2.0 Hz", "0.25 s", "37 %": numbers as sentences want them.
+std::string withUnit(double value, const char* unit, int digits = 2);
+/// With at most 6 decimals and no exponent, which YAML would take for text: "0.0001", "2", "-0.5".
+std::string plainNumber(double value);
+std::string percent(double share);
+/// "a, b, c".
+std::string listOf(const std::vector<std::string>& names);
+
+}  // namespace fiimap

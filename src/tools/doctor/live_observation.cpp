@@ -1,0 +1,193 @@
+#include "doctor/live_observation.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <stdexcept>
+
+#include "fiimap/ros/message_conversions.h"
+#include "fiimap/ros/parameter_sources.h"
+#include "fiimap/ros/pose_messages.h"
+
+namespace fiimap {
+namespace {
+
+constexpr int kQueue = 1000;            // messages
+const ros::WallDuration kRefresh(0.5);  // between looks for new topics
+const ros::WallDuration kPause(0.002);  // between looks for new messages
+const std::string kDiagnostics = "/diagnostics";
+
+/// Simulated time where there is one: by it messages are stamped.
+ros::Time now() {
+  const ros::Time simulated = ros::Time::now();
+  if (!simulated.isZero()) return simulated;
+  const ros::WallTime wall = ros::WallTime::now();
+  return {wall.sec, wall.nsec};
+}
+
+/// Subscribes as topics appear. Callbacks run in the thread that calls spin().
+class GraphListener {
+ public:
+  GraphListener(std::string map, Observation* observation)
+      : map_(std::move(map)), observation_(observation) {}
+
+  void listen(double seconds) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+    ros::WallTime refreshed;
+    while (ros::ok() && ros::WallTime::now() < end) {
+      if (ros::WallTime::now() - refreshed > kRefresh) {
+        refresh();
+        refreshed = ros::WallTime::now();
+      }
+      ros::spinOnce();
+      kPause.sleep();
+    }
+    subscribers_.clear();
+    if (observation_->map) {
+      for (const auto& [task, text] : troubles_) observation_->map->troubles.push_back(text);
+    }
+  }
+
+ private:
+  template <typename Message>
+  using Callback = boost::function<void(const boost::shared_ptr<const Message>&)>;
+
+  void refresh() {
+    ros::master::V_TopicInfo topics;
+    ros::master::getTopics(topics);
+    for (const ros::master::TopicInfo& topic : topics) {
+      observation_->types[topic.name] = topic.datatype;
+    }
+    findMap();
+    for (const ros::master::TopicInfo& topic : topics) subscribe(topic.name, topic.datatype);
+    subscribe(kDiagnostics,
+              ros::message_traits::DataType<diagnostic_msgs::DiagnosticArray>::value());
+  }
+
+  void subscribe(const std::string& topic, const std::string& type) {
+    if (subscribers_.count(topic) != 0 || isOutputOfMap(topic, *observation_)) return;
+    subscribeAs<sensor_msgs::Image>(topic, type, [this, topic](const auto& image) {
+      observe(topic, image, now(), observation_);
+      // One tells that it is no depth image; no need to move more of them.
+      if (!isDepthEncoding(image->encoding)) subscribers_.at(topic).shutdown();
+    });
+    const auto plainly = [this, topic](const auto& message) {
+      observe(topic, message, now(), observation_);
+    };
+    subscribeAs<sensor_msgs::CameraInfo>(topic, type, plainly);
+    subscribeAs<sensor_msgs::PointCloud2>(topic, type, plainly);
+    subscribeAs<tf2_msgs::TFMessage>(topic, type, plainly);
+    const auto as_transform = [this, topic](const auto& pose) {
+      observe(topic, toTransform(*pose), now(), observation_);
+    };
+    subscribeAs<nav_msgs::Odometry>(topic, type, as_transform);
+    subscribeAs<geometry_msgs::PoseStamped>(topic, type, as_transform);
+    subscribeAs<geometry_msgs::TransformStamped>(topic, type, [this, topic](const auto& pose) {
+      observe(topic, *pose, now(), observation_);
+    });
+    subscribeAs<rosgraph_msgs::Clock>(
+        topic, type, [this](const auto& /*clock*/) { ++observation_->clock_messages; });
+    subscribeAs<diagnostic_msgs::DiagnosticArray>(
+        topic, type, [this](const auto& message) { onDiagnostics(*message); });
+  }
+
+  template <typename Message, typename Call>
+  void subscribeAs(const std::string& topic, const std::string& type, Call call) {
+    if (type != ros::message_traits::DataType<Message>::value()) return;
+    const Callback<Message> callback = call;
+    subscribers_[topic] = node_.subscribe<Message>(topic, kQueue, callback);
+  }
+
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
+    if (!observation_->map) return;
+    const std::string prefix = observation_->map->name.substr(1) + ": ";
+    for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
+      if (status.name.compare(0, prefix.size(), prefix) != 0) continue;
+      troubles_.erase(status.name);
+      const bool is_start = status.values.empty();  // the updater's own first word
+      if (status.level != diagnostic_msgs::DiagnosticStatus::OK && !is_start) {
+        troubles_[status.name] = status.message;
+      }
+    }
+  }
+
+  void findMap() {
+    if (observation_->map) return;
+    const std::vector<std::string> maps = mapsIn(observation_->types);
+    const auto found = map_.empty()
+                           ? maps.begin()
+                           : std::find(maps.begin(), maps.end(), ros::names::resolve(map_));
+    if (found == maps.end()) return;
+    observation_->map = RunningMap();
+    observation_->map->name = *found;
+    observation_->map->parameters = parameterMapFromRos(ros::NodeHandle(*found));
+    observation_->map->inputs = inputsOf(*found);
+  }
+
+  /// Topics that the process of a map listens to, with their types.
+  static std::map<std::string, std::string> inputsOf(const std::string& map) {
+    XmlRpc::XmlRpcValue arguments, response, state, types;
+    arguments[0] = ros::this_node::getName();
+    const bool wait = false;
+    if (!ros::master::execute("getSystemState", arguments, response, state, wait) ||
+        !ros::master::execute("getTopicTypes", arguments, response, types, wait)) {
+      return {};
+    }
+    std::map<std::string, std::string> type_of;
+    for (int i = 0; i < types.size(); ++i) {
+      type_of[static_cast<std::string>(types[i][0])] = static_cast<std::string>(types[i][1]);
+    }
+    std::set<std::string> processes;
+    forEachUser(state[0], [&](const std::string& topic, const std::string& node) {
+      if (topic == map + "/map_handle") processes.insert(node);
+    });
+    std::map<std::string, std::string> inputs;
+    forEachUser(state[1], [&](const std::string& topic, const std::string& node) {
+      if (processes.count(node) != 0) inputs[topic] = type_of[topic];
+    });
+    return inputs;
+  }
+
+  /// \param users of the master's state: [[topic, [node, ...]], ...].
+  template <typename Visit>
+  static void forEachUser(XmlRpc::XmlRpcValue& users, Visit visit) {
+    for (int i = 0; i < users.size(); ++i) {
+      for (int j = 0; j < users[i][1].size(); ++j) {
+        visit(static_cast<std::string>(users[i][0]), static_cast<std::string>(users[i][1][j]));
+      }
+    }
+  }
+
+  std::string map_;
+  Observation* observation_;
+  ros::NodeHandle node_;
+  std::map<std::string, ros::Subscriber> subscribers_;
+  std::map<std::string, std::string> troubles_;  // newest by task
+};
+
+}  // namespace
+
+Observation observeGraph(const std::string& map, double seconds) {
+  Observation observation;
+  observation.seconds = seconds;
+  ros::param::get("/use_sim_time", observation.use_sim_time);
+  GraphListener(map, &observation).listen(seconds);
+  if (!map.empty() && !observation.map) {
+    throw std::invalid_argument("--map " + map + ": no such map runs; there are: " + [&] {
+      std::string names;
+      for (const std::string& name : mapsIn(observation.types)) {
+        names += name + ' ';
+      }
+      return names.empty() ? std::string("none") : names;
+    }());
+  }
+  return observation;
+}
+
+}  // namespace fiimap

@@ -1,0 +1,50 @@
+#include "doctor/checks.h"
+#include "doctor/topic_choice.h"
+
+namespace fiimap {
+namespace {
+
+/// What a map listens to must be what was found.
+void checkInput(const std::string& what, const std::string& type, const std::string& found,
+                const char* argument, Examination* e) {
+  const std::string listened = listenedTo(type, e->seen);
+  if (listened.empty() || found.empty() || listened == found) return;
+  const bool exists = e->seen.types.count(listened) != 0;
+  e->error("The map " + e->seen.map->name + " listens to " + listened + " for " + what + ", " +
+               (exists ? "where nothing fit came" : "which nobody publishes") +
+               "; found: " + found + ".",
+           std::string("Start it with ") + argument + ":=" + found + ".", Repair::kInLaunchLine);
+}
+
+}  // namespace
+
+void checkRunningMap(Examination* e) {
+  if (!e->seen.map) return;
+  const RunningMap& map = *e->seen.map;
+  const MapSetup& setup = e->setup;
+  e->note("A map runs: " + map.name + "; its parameters and topics were looked at.");
+  checkInput("depth images", "sensor_msgs/Image", setup.depth_image, "depth_image", e);
+  checkInput("camera_info", "sensor_msgs/CameraInfo", setup.camera_info, "camera_info", e);
+  checkInput("clouds", "sensor_msgs/PointCloud2", setup.points, "points", e);
+  constexpr const char* kArguments[3] = {"odom", "pose", "transform"};
+  if (setup.node.pose_source != PoseSource::kTf) {
+    const auto source = static_cast<std::size_t>(setup.node.pose_source);
+    checkInput("poses", kPoseTypes[source], setup.poses, kArguments[source], e);
+  }
+  const auto source = map.parameters.find("pose_source");
+  NodeConfig now;
+  if (source != map.parameters.end()) {
+    applyParameters({{"pose_source", source->second}}, nodeParameters(&now));
+  }
+  if (setup.has_poses && now.pose_source != setup.node.pose_source) {
+    e->error("The map " + map.name + " takes its poses from another source than there is.",
+             "Start it as the launch line does.", Repair::kInLaunchLine);
+  }
+  for (const std::string& trouble : map.troubles) {
+    e->error("The map " + map.name + " says: " + trouble + ".",
+             "It is said on /diagnostics, and README.md, Questions, has more.",
+             Repair::kInLaunchLine);
+  }
+}
+
+}  // namespace fiimap

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "doctor/examination.h"
+#include "fiimap/ros/drop_reason.h"
+
+namespace fiimap {
+
+/// What the node would do with the messages that were seen, set up as the launch line does.
+struct Trial {
+  std::size_t scans = 0;   ///< seen
+  std::size_t usable = 0;  ///< of them, those that found pose, place and intrinsics
+  std::map<DropReason, std::size_t> dropped;
+  Drop last_drop;
+  std::vector<std::string> warnings;  ///< of the node
+
+  /// Scans that found all or were dropped; the others wait for what comes later.
+  std::size_t decided() const;
+};
+
+/// Runs the node's own synchronisation on the messages in the order of their arrival.
+Trial tryOut(const Observation& observation, const MapSetup& setup);
+
+}  // namespace fiimap
