@@ -25,22 +25,22 @@ std::string bodyAbove(const std::string& sensor, const Examination& e) {
 
 std::string publisherCommand(const std::string& body, const std::string& sensor,
                              const std::string& rotation) {
-  return "rosrun tf2_ros static_transform_publisher X Y Z " + rotation + " " + body + " " + sensor +
-         " (X Y Z: metres ahead, to the left and up)";
+  return "rosrun tf2_ros static_transform_publisher X Y Z " + rotation + " " + body + " " + sensor;
 }
 
 /// TF knows nothing of the sensor: it is taken to look ahead from the body's origin.
-void assumeMount(const std::string& why, Examination* e) {
+void assumeMount(const std::string& why, const std::string& body, Examination* e) {
+  const bool is_camera = isCamera(*e);
+  const std::string rotation = is_camera ? kOpticalRotation : "0 0 0 1";
   const std::string sensor = e->sensorFrame();
-  const std::string body =
-      e->setup.node.body_frame.empty() ? "base_link" : e->setup.node.body_frame;
-  const std::string rotation = isCamera(*e) ? kOpticalRotation : "0 0 0 1";
   e->error(why,
-           "Publish where the sensor is: " + publisherCommand(body, sensor, rotation) +
-               ". The launch line takes it to be at the body's origin" +
-               (isCamera(*e) ? " and to look ahead" : " and turned like it") +
-               ": correct extrinsic_translation and extrinsic_rotation there otherwise.",
-           Repair::kInLaunchLine);
+           std::string("The launch line takes the sensor to be at the body's origin") +
+               (is_camera ? " and to look ahead" : " and turned like it") +
+               ": correct extrinsic_translation (metres ahead, to the left, up) and "
+               "extrinsic_rotation there, or publish where it is:",
+           Repair::kInLaunchLine,
+           publisherCommand(body.empty() ? "base_link" : body, sensor.empty() ? "SENSOR" : sensor,
+                            rotation));
   e->change("extrinsics", "parameter");
   e->change("extrinsic_translation", "0 0 0");
   e->change("extrinsic_rotation", rotation);
@@ -49,15 +49,14 @@ void assumeMount(const std::string& why, Examination* e) {
 /// The sensor's frames begin at `top`, which nothing connects with the body.
 void assumeBody(const std::string& body, const std::string& top, Examination* e) {
   const std::string sensor = e->sensorFrame();
-  const std::string what = e->frames.contains(body) ? "does not connect it with" : "does not know";
-  e->error("The body of the poses is '" + body + "', but TF " + what +
-               (e->frames.contains(body) ? " '" + sensor + "'" : " it") + "; the sensor's frame '" +
-               sensor + "' hangs on '" + top + "' (TF: " + e->frames.text() + ").",
-           "Publish the transform between them: " + publisherCommand(body, top, "0 0 0 1") +
-               ". The launch line takes '" + top +
-               "' for the body (body_frame), as if both were "
-               "one.",
-           Repair::kInLaunchLine);
+  e->error("The body of the poses is '" + body + "', but TF does not " +
+               (e->frames.contains(body) ? "connect it with the sensor" : "know it") +
+               ": the sensor's frame '" + sensor + "' hangs on '" + top +
+               "' (TF: " + e->frames.text() + ").",
+           "The launch line takes '" + top +
+               "' for the body (body_frame), as if both were one. Better publish the transform "
+               "between them, X Y Z in metres ahead, to the left and up:",
+           Repair::kInLaunchLine, publisherCommand(body, top, "0 0 0 1"));
   e->change("body_frame", top);
 }
 
@@ -68,7 +67,7 @@ void checkUnnamedBody(const std::string& top, Examination* e) {
                     (can_name ? " (child_frame_id is empty)" : "") +
                     ", and TF does not know where the sensor's frame '" + e->sensorFrame() +
                     "' is on it.",
-                e);
+                "", e);
     return;
   }
   const std::string remedy = "The launch line sets body_frame: " + top +
@@ -100,7 +99,7 @@ void checkBodyFrame(Examination* e) {
   if (config.extrinsics == ExtrinsicsSource::kParameter) return;
   if (sensor.empty()) {
     assumeMount("The messages of " + e->setup.scans() + " name no frame: header.frame_id is empty.",
-                e);
+                body, e);
   } else if (body.empty()) {
     checkUnnamedBody(top, e);
   } else if (!e->frames.areConnected(body, sensor) && body != sensor) {
@@ -108,7 +107,7 @@ void checkBodyFrame(Examination* e) {
       assumeMount(
           "TF does not say where the sensor's frame '" + sensor + "' is on the body '" + body +
               "'" + (e->frames.empty() ? ": there is no TF." : " (TF: " + e->frames.text() + ")."),
-          e);
+          body, e);
     } else {
       assumeBody(body, top, e);
     }

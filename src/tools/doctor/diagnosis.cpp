@@ -89,6 +89,7 @@ std::string toText(const Finding& finding) {
   const std::string indent = "       ";
   std::string text = wrapped(finding.what, std::string(nameOf(finding.severity)) + "  ", indent);
   if (!finding.remedy.empty()) text += wrapped("-> " + finding.remedy, indent, indent + "   ");
+  if (!finding.command.empty()) text += "\n" + indent + finding.command + "\n\n";
   return text;
 }
 

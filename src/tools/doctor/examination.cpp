@@ -19,18 +19,24 @@ Examination::Examination(const Observation& observation, const DoctorWishes& cho
     throw std::invalid_argument("unknown parameter " + name + ": fiimap_eval parameters lists all");
   }
   setup.changes = wishes.parameters;
+  if (setup.node.sensors.empty()) return;
+  note("The map has several sensors; one of them is looked at.",
+       "Choose it with --depth-image TOPIC or --points TOPIC; launch lines are for one sensor, "
+       "launch/multi_sensor.launch is for several.");
+  setup.node.sensors.clear();
 }
 
 void Examination::note(const std::string& what, const std::string& remedy) {
-  findings.push_back({Severity::kNote, what, remedy, Repair::kNone});
+  findings.push_back({Severity::kNote, what, remedy});
 }
 
 void Examination::warn(const std::string& what, const std::string& remedy) {
-  findings.push_back({Severity::kWarning, what, remedy, Repair::kNone});
+  findings.push_back({Severity::kWarning, what, remedy});
 }
 
-void Examination::error(const std::string& what, const std::string& remedy, Repair repair) {
-  findings.push_back({Severity::kError, what, remedy, repair});
+void Examination::error(const std::string& what, const std::string& remedy, Repair repair,
+                        const std::string& command) {
+  findings.push_back({Severity::kError, what, remedy, repair, command});
 }
 
 void Examination::change(const std::string& parameter, const std::string& value) {

@@ -25,6 +25,7 @@ struct Finding {
   std::string what;    ///< sentences with the figures
   std::string remedy;  ///< a sentence; empty where there is nothing to do
   Repair repair = Repair::kNone;
+  std::string command{};  ///< of the remedy, to be typed; empty where there is none
 };
 
 /// What the user chose where there is a choice. Empty: found by type.
@@ -64,7 +65,8 @@ struct Examination {
   bool isGiven(const std::string& parameter) const { return given.count(parameter) != 0; }
   void note(const std::string& what, const std::string& remedy = "");
   void warn(const std::string& what, const std::string& remedy);
-  void error(const std::string& what, const std::string& remedy, Repair repair = Repair::kNone);
+  void error(const std::string& what, const std::string& remedy, Repair repair = Repair::kNone,
+             const std::string& command = "");
   /// Sets a parameter of the map that the launch line must then set.
   void change(const std::string& parameter, const std::string& value);
 

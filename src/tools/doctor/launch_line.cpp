@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <sstream>
 
 #include "quantiles.h"
 
@@ -31,17 +33,18 @@ bool isWord(const std::string& text) {
   });
 }
 
-/// A parameter's text as a value in YAML: lists are numbers or words with spaces between them.
-std::string yamlValue(const std::string& text) {
+bool isList(const std::string& parameter) {
+  return parameter == "extrinsic_translation" || parameter == "extrinsic_rotation" ||
+         parameter == "sensors";
+}
+
+/// A parameter's text as a value in YAML; in lists, words are separated by spaces.
+std::string yamlValue(const std::string& parameter, const std::string& text) {
+  if (!isList(parameter)) return isNumber(text) || isWord(text) ? text : '"' + text + '"';
+  std::istringstream words(text);
   std::string list;
-  std::size_t count = 0;
-  for (std::size_t begin = text.find_first_not_of(' '); begin != std::string::npos; ++count) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    list += (list.empty() ? "" : ", ") + text.substr(begin, end - begin);
-    begin = text.find_first_not_of(' ', end);
-  }
-  if (count > 1) return '[' + list + ']';
-  return isNumber(text) || isWord(text) ? text : '"' + text + '"';
+  for (std::string word; words >> word;) list += (list.empty() ? "" : ", ") + word;
+  return '[' + list + ']';
 }
 
 /// "{a: 1, b: [1, 2]}"; empty where there is nothing to set.
@@ -49,7 +52,7 @@ std::string furtherParameters(const ParameterMap& changes) {
   std::string yaml;
   for (const auto& [name, value] : changes) {
     const bool has_argument = name == "sensor" || name == "pose_source" || name == "map_frame";
-    if (!has_argument) yaml += (yaml.empty() ? "" : ", ") + name + ": " + yamlValue(value);
+    if (!has_argument) yaml += (yaml.empty() ? "" : ", ") + name + ": " + yamlValue(name, value);
   }
   return yaml.empty() ? "" : '{' + yaml + '}';
 }

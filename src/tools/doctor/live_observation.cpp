@@ -50,7 +50,11 @@ class GraphListener {
     }
     subscribers_.clear();
     if (observation_->map) {
-      for (const auto& [task, text] : troubles_) observation_->map->troubles.push_back(text);
+      for (const auto& [task, status] : troubles_) {
+        const bool is_error = status.level != diagnostic_msgs::DiagnosticStatus::WARN;
+        auto& texts = is_error ? observation_->map->errors : observation_->map->warnings;
+        texts.push_back(status.message);
+      }
     }
   }
 
@@ -112,7 +116,7 @@ class GraphListener {
       troubles_.erase(status.name);
       const bool is_start = status.values.empty();  // the updater's own first word
       if (status.level != diagnostic_msgs::DiagnosticStatus::OK && !is_start) {
-        troubles_[status.name] = status.message;
+        troubles_[status.name] = status;
       }
     }
   }
@@ -168,7 +172,7 @@ class GraphListener {
   Observation* observation_;
   ros::NodeHandle node_;
   std::map<std::string, ros::Subscriber> subscribers_;
-  std::map<std::string, std::string> troubles_;  // newest by task
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> troubles_;  // newest by task
 };
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "doctor/checks.h"
 #include "doctor/topic_choice.h"
 
@@ -40,10 +42,17 @@ void checkRunningMap(Examination* e) {
     e->error("The map " + map.name + " takes its poses from another source than there is.",
              "Start it as the launch line does.", Repair::kInLaunchLine);
   }
-  for (const std::string& trouble : map.troubles) {
-    e->error("The map " + map.name + " says: " + trouble + ".",
-             "It is said on /diagnostics, and README.md, Questions, has more.",
-             Repair::kInLaunchLine);
+  const std::string where = "It is said on /diagnostics; README.md, Questions, has more.";
+  // Most likely what was found before is the reason.
+  const bool is_explained =
+      std::any_of(e->findings.begin(), e->findings.end(),
+                  [](const Finding& finding) { return finding.severity == Severity::kError; });
+  for (const std::string& text : map.errors) {
+    e->error("The map " + map.name + " says: " + text + ".", where,
+             is_explained ? Repair::kInLaunchLine : Repair::kNone);
+  }
+  for (const std::string& text : map.warnings) {
+    e->warn("The map " + map.name + " says: " + text + ".", where);
   }
 }
 

@@ -36,7 +36,8 @@ struct RunningMap {
   std::string name;                           ///< full, with '/'
   ParameterMap parameters;                    ///< as it has them
   std::map<std::string, std::string> inputs;  ///< types of the topics that it listens to, by name
-  std::vector<std::string> troubles;          ///< what /diagnostics said of it last, unless OK
+  std::vector<std::string> errors;            ///< that /diagnostics said of it last
+  std::vector<std::string> warnings;          ///< likewise
 };
 
 /// What a live graph or a bag showed in some seconds. Live and recorded messages look the same.
