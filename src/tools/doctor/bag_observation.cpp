@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+#include <type_traits>
 
 #include "bag_check.h"
 #include "fiimap/ros/pose_messages.h"

@@ -1,8 +1,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "doctor/checks.h"
 #include "fiimap/ros/drop_reason.h"
@@ -17,10 +19,12 @@ namespace {
 constexpr double kFewPoints = 0.01;  // of the points
 
 // Standing still, a scene looks alike in any frame: the vehicle must have moved by this.
-constexpr double kLeastTravel = 1.5;   // m
-constexpr float kPlace = 0.3F;         // m, edge of the places that clouds share
-constexpr double kLeastOverlap = 0.5;  // of the points of a cloud
-constexpr double kClearlyMore = 2.0;   // times
+constexpr double kLeastTravel = 1.5;      // m
+constexpr float kPlace = 0.3F;            // m, edge of the places that clouds share
+constexpr std::size_t kUpright = 3;       // places above each other
+constexpr std::size_t kLeastPlaces = 30;  // to compare
+constexpr double kLeastOverlap = 0.5;     // of the points of a cloud
+constexpr double kClearlyMore = 2.0;      // times
 
 using Place = std::tuple<int, int, int>;
 
@@ -30,23 +34,33 @@ Place placeOf(const Eigen::Vector3f& point) {
           static_cast<int>(std::floor(point.z() / kPlace))};
 }
 
-std::set<Place> placesOf(const std::vector<Eigen::Vector3f>& points) {
+/// The places of upright things: walls, poles, trees. The ground below looks alike wherever a
+/// vehicle goes.
+std::set<Place> uprightPlaces(const std::vector<Eigen::Vector3f>& points) {
+  std::map<std::pair<int, int>, std::set<int>> columns;
+  for (const Eigen::Vector3f& point : points) {
+    const auto [x, y, z] = placeOf(point);
+    columns[{x, y}].insert(z);
+  }
   std::set<Place> places;
-  for (const Eigen::Vector3f& point : points) places.insert(placeOf(point));
+  for (const auto& [column, heights] : columns) {
+    if (heights.size() < kUpright) continue;
+    for (const int z : heights) places.insert({column.first, column.second, z});
+  }
   return places;
 }
 
-/// Share of the places of a cloud, moved by T, that another has too.
-double overlap(const std::vector<Eigen::Vector3f>& first,
-               const std::vector<Eigen::Vector3f>& second, const Eigen::Isometry3d& T) {
-  const std::set<Place> places = placesOf(first);
-  std::vector<Eigen::Vector3f> moved;
-  for (const Eigen::Vector3f& point : second) moved.push_back(T.cast<float>() * point);
+/// Share of the places of a cloud that another has too.
+double overlap(const std::set<Place>& first, const std::set<Place>& second) {
   std::size_t common = 0;
-  const std::set<Place> of_second = placesOf(moved);
-  for (const Place& place : of_second) common += places.count(place);
-  return of_second.empty() ? 0.0
-                           : static_cast<double>(common) / static_cast<double>(of_second.size());
+  for (const Place& place : second) common += first.count(place);
+  return static_cast<double>(common) / static_cast<double>(second.size());
+}
+
+std::vector<Eigen::Vector3f> moved(const Eigen::Isometry3d& T,
+                                   std::vector<Eigen::Vector3f> points) {
+  for (Eigen::Vector3f& point : points) point = T.cast<float>() * point;
+  return points;
 }
 
 /// Pose message whose stamp is nearest; there must be some.
@@ -63,9 +77,8 @@ const geometry_msgs::TransformStamped& nearest(
 /// Clouds that stay where they are in their own frame while the vehicle moves.
 void checkStandstill(const CloudFigures& figures, Examination* e) {
   const auto poses = e->seen.poses.find(e->setup.poses);
-  if (poses == e->seen.poses.end() || figures.samples.size() < 2) return;
-  const CloudFigures::Sample& first = figures.samples.front();
-  const CloudFigures::Sample& last = figures.samples.back();
+  if (poses == e->seen.poses.end() || figures.clouds < 2) return;
+  const CloudFigures::Sample &first = figures.first, &last = figures.last;
   Eigen::Isometry3d T_first_last;
   try {
     T_first_last = decodeTransform(nearest(poses->second, first.stamp).transform).inverse() *
@@ -75,16 +88,20 @@ void checkStandstill(const CloudFigures& figures, Examination* e) {
   }
   const double travel = T_first_last.translation().norm();
   if (travel < kLeastTravel) return;
-  const double as_is = overlap(first.points, last.points, Eigen::Isometry3d::Identity());
-  const double moved = overlap(first.points, last.points, T_first_last);
-  if (as_is < kLeastOverlap || as_is < kClearlyMore * moved) return;
-  e->error("The clouds of " + e->setup.points + " say frame '" + e->sensorFrame() +
-               "', but their points are in the world: between the first and the last the vehicle "
-               "went " +
-               withUnit(travel, "m", 1) + ", and " + percent(as_is) +
-               " of the places are the same in both (" + percent(moved) +
-               " where the poses would put them).",
-           "Use the cloud as the sensor gives it; rays must start at the origin of its frame.");
+  const std::set<Place> before = uprightPlaces(first.points);
+  const std::set<Place> still = uprightPlaces(last.points);
+  const std::set<Place> moving = uprightPlaces(moved(T_first_last, last.points));
+  if (std::min({before.size(), still.size(), moving.size()}) < kLeastPlaces) return;
+  const double as_is = overlap(before, still), by_poses = overlap(before, moving);
+  if (as_is < kLeastOverlap || as_is < kClearlyMore * by_poses) return;
+  // A tunnel looks alike from everywhere, too.
+  e->warn("The clouds of " + e->setup.points + " say frame '" + e->sensorFrame() +
+              "', but their points seem to be in the world: between the first and the last the "
+              "vehicle went " +
+              withUnit(travel, "m", 1) + ", and " + percent(as_is) +
+              " of what stands upright is at the same place in both (" + percent(by_poses) +
+              " where the poses would put it).",
+          "Use the cloud as the sensor gives it; rays must start at the origin of its frame.");
 }
 
 }  // namespace
@@ -97,7 +114,7 @@ void checkCloudPoints(Examination* e) {
     e->error("Clouds of " + topic + " cannot be read: " + figures.unreadable + ".",
              remedyFor(DropReason::kBadCloud) + ".");
   }
-  if (figures.samples.empty()) return;
+  if (figures.clouds == 0) return;
   if (figures.finite == 0) {
     e->error("No point of the clouds of " + topic + " is finite and away from the origin (" +
                  std::to_string(figures.points) + " looked at).",

@@ -9,7 +9,7 @@
 namespace fiimap {
 namespace {
 
-constexpr std::size_t kPointsOfCloud = 1500;
+constexpr std::size_t kPointsOfCloud = 1500;  // to look at
 // A spinning LiDAR of many lines gives organised clouds too, but as wide as its turn.
 constexpr std::uint32_t kMostRowsOfLidar = 128;
 constexpr int kEveryPoint = 1;
@@ -25,18 +25,20 @@ void CloudFigures::add(const sensor_msgs::PointCloud2& cloud) {
     return;
   }
   is_organised = cloud.height > kMostRowsOfLidar;
-  Sample sample;
-  sample.stamp = cloud.header.stamp;
+  last.stamp = cloud.header.stamp;
+  last.points.clear();
   const std::size_t step = std::max<std::size_t>(scan.points.size() / kPointsOfCloud, 1);
-  for (std::size_t i = 0; i < scan.points.size(); i += step) {
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector3f& point = scan.points[i];
+    const bool is_point = point.allFinite() && !point.isZero();
+    if (is_point) last.points.push_back(point);
+    if (i % step != 0) continue;
     ++points;
-    if (!point.allFinite() || point.isZero()) continue;
+    if (!is_point) continue;
     ++finite;
     ranges.push_back(point.norm());
-    sample.points.push_back(point);
   }
-  samples.push_back(std::move(sample));
+  if (clouds++ == 0) first = last;
 }
 
 double CloudFigures::finiteShare() const {

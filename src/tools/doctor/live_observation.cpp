@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "doctor/examination.h"
 #include "fiimap/ros/message_conversions.h"
 #include "fiimap/ros/parameter_sources.h"
 #include "fiimap/ros/pose_messages.h"
@@ -19,6 +20,7 @@ namespace fiimap {
 namespace {
 
 constexpr int kQueue = 1000;            // messages
+constexpr int kScanQueue = 30;          // scans: they are large
 const ros::WallDuration kRefresh(0.5);  // between looks for new topics
 const ros::WallDuration kPause(0.002);  // between looks for new messages
 const std::string kDiagnostics = "/diagnostics";
@@ -76,16 +78,19 @@ class GraphListener {
 
   void subscribe(const std::string& topic, const std::string& type) {
     if (subscribers_.count(topic) != 0 || isOutputOfMap(topic, *observation_)) return;
-    subscribeAs<sensor_msgs::Image>(topic, type, [this, topic](const auto& image) {
-      observe(topic, image, now(), observation_);
-      // One tells that it is no depth image; no need to move more of them.
-      if (!isDepthEncoding(image->encoding)) subscribers_.at(topic).shutdown();
-    });
+    subscribeAs<sensor_msgs::Image>(
+        topic, type,
+        [this, topic](const auto& image) {
+          observe(topic, image, now(), observation_);
+          // One tells that it is no depth image; no need to move more of them.
+          if (!isDepthEncoding(image->encoding)) subscribers_.at(topic).shutdown();
+        },
+        kScanQueue);
     const auto plainly = [this, topic](const auto& message) {
       observe(topic, message, now(), observation_);
     };
     subscribeAs<sensor_msgs::CameraInfo>(topic, type, plainly);
-    subscribeAs<sensor_msgs::PointCloud2>(topic, type, plainly);
+    subscribeAs<sensor_msgs::PointCloud2>(topic, type, plainly, kScanQueue);
     subscribeAs<tf2_msgs::TFMessage>(topic, type, plainly);
     const auto as_transform = [this, topic](const auto& pose) {
       observe(topic, toTransform(*pose), now(), observation_);
@@ -102,10 +107,11 @@ class GraphListener {
   }
 
   template <typename Message, typename Call>
-  void subscribeAs(const std::string& topic, const std::string& type, Call call) {
+  void subscribeAs(const std::string& topic, const std::string& type, Call call,
+                   int queue = kQueue) {
     if (type != ros::message_traits::DataType<Message>::value()) return;
     const Callback<Message> callback = call;
-    subscribers_[topic] = node_.subscribe<Message>(topic, kQueue, callback);
+    subscribers_[topic] = node_.subscribe<Message>(topic, queue, callback);
   }
 
   void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
@@ -183,13 +189,9 @@ Observation observeGraph(const std::string& map, double seconds) {
   ros::param::get("/use_sim_time", observation.use_sim_time);
   GraphListener(map, &observation).listen(seconds);
   if (!map.empty() && !observation.map) {
-    throw std::invalid_argument("--map " + map + ": no such map runs; there are: " + [&] {
-      std::string names;
-      for (const std::string& name : mapsIn(observation.types)) {
-        names += name + ' ';
-      }
-      return names.empty() ? std::string("none") : names;
-    }());
+    const std::vector<std::string> maps = mapsIn(observation.types);
+    throw std::invalid_argument("--map " + map + ": no such map runs; there are: " +
+                                (maps.empty() ? "none" : listOf(maps)));
   }
   return observation;
 }

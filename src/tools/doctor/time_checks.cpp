@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "doctor/checks.h"
 #include "doctor/timing.h"
@@ -12,29 +13,36 @@ constexpr double kSlowScans = 2.0;    // Hz
 constexpr double kManyGaps = 0.02;    // of the intervals
 constexpr double kRoom = 1.5;         // times the usual interval
 constexpr double kStep = 0.05;        // s, of the times that are suggested
+constexpr double kRounding = 1e-6;    // steps
 constexpr double kNoticeable = 0.15;  // s between the stamps of scans and poses of one moment
 constexpr double kOtherClock = 1.0;   // s between them that no delay explains
 constexpr double kFuture = 0.05;      // s
+constexpr double kMostOffset = 3600;  // s, of time_offset
 constexpr double kOtherTime = 60.0;   // s between the clock and all stamps
 
-double roundedUp(double seconds) { return std::ceil(seconds / kStep) * kStep; }
+double roundedUp(double seconds) { return std::ceil(seconds / kStep - kRounding) * kStep; }
 
 double rateOf(const TopicHealth& health) {
   return health.duration > 0.0 ? static_cast<double>(health.messages - 1) / health.duration : 0.0;
 }
 
+/// Messages of a topic that have no stamp.
+template <typename Messages>
+std::ptrdiff_t countUnstamped(const Messages& by_topic, const std::string& topic) {
+  const auto found = by_topic.find(topic);
+  if (found == by_topic.end()) return 0;
+  return std::count_if(found->second.begin(), found->second.end(), [](const auto& received) {
+    return received.message->header.stamp.isZero();
+  });
+}
+
 /// Of the scans or poses that were chosen.
 template <typename Messages>
 void checkStamps(const Messages& by_topic, const std::string& topic, Examination* e) {
-  const auto found = by_topic.find(topic);
-  if (found == by_topic.end()) return;
-  const auto& messages = found->second;
-  const auto unstamped = std::count_if(messages.begin(), messages.end(), [](const auto& message) {
-    return message.message->header.stamp.isZero();
-  });
+  const std::ptrdiff_t unstamped = countUnstamped(by_topic, topic);
   if (unstamped == 0) return;
-  e->error(std::to_string(unstamped) + " of " + std::to_string(messages.size()) + " messages of " +
-               topic + " have no stamp.",
+  e->error(std::to_string(unstamped) + " of " + std::to_string(by_topic.at(topic).size()) +
+               " messages of " + topic + " have no stamp.",
            "Let the driver fill in header.stamp with the time of the measurement.");
 }
 
@@ -93,13 +101,21 @@ void checkRates(Examination* e) {
 
 void checkClocks(Examination* e) {
   const TopicHealth scans = scanTiming(*e), poses = poseTiming(*e);
-  if (scans.messages == 0 || poses.messages == 0) return;
+  const bool are_stamped = countUnstamped(e->seen.images, e->setup.depth_image) == 0 &&
+                           countUnstamped(e->seen.clouds, e->setup.points) == 0 &&
+                           countUnstamped(e->seen.poses, e->setup.poses) == 0;
+  if (scans.messages == 0 || poses.messages == 0 || !are_stamped) return;
   // The clock of receipt is the same for both and cancels out.
   const double offset = e->setup.node.time_offset;
   const double scans_later = scans.delay.median - offset - poses.delay.median;
   const std::string figures = "scans arrive " + withUnit(scans.delay.median, "s", 3) +
                               " after their stamp and poses " +
                               withUnit(poses.delay.median, "s", 3) + " after theirs";
+  if (std::abs(offset + scans_later) > kMostOffset) {
+    e->error("Scans and poses are stamped by different clocks: " + figures + ".",
+             "Set the clocks; if one of them is simulated, stamp both by /clock.");
+    return;
+  }
   if (std::abs(scans_later) > kOtherClock) {
     const std::string suggestion = plainNumber(std::round((offset + scans_later) * 1e3) / 1e3);
     e->error(
