@@ -40,7 +40,8 @@ void turnBodyFrame(const Eigen::Isometry3d& T_B_F, Examination* e) {
   const std::string optical = opticalBelow(frame, e->frames);
   Eigen::Isometry3d T_B_C = T_B_F;
   T_B_C.rotate(opticalRotation());
-  const Eigen::Quaterniond rotation(T_B_C.linear());
+  Eigen::Quaterniond rotation(T_B_C.linear());
+  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;  // the same rotation, as it is usually written
   e->error(
       "The depth image is of the frame '" + frame +
           "', which is a body frame (x ahead) and no optical frame (z ahead): its camera would "
