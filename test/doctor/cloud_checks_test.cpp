@@ -8,8 +8,6 @@
 namespace fiimap {
 namespace {
 
-constexpr bool kComes = true;
-
 SeenVehicle withLidar() {
   SeenVehicle vehicle;
   vehicle.image = [](auto*) { return !kComes; };

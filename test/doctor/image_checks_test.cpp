@@ -8,8 +8,6 @@
 namespace fiimap {
 namespace {
 
-constexpr bool kComes = true;
-
 TEST(ImageChecksTest, FindNothingWrongWithAGoodCamera) {
   const Diagnosis diagnosis = SeenVehicle().diagnosis();
   expectNothingWrong(diagnosis);

@@ -6,7 +6,6 @@
 namespace fiimap {
 namespace {
 
-constexpr bool kComes = true;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -119,7 +118,7 @@ TEST(PlaceChecksTest, FindABodyThatTfDoesNotKnow) {
   expectFinding(diagnosis, Severity::kError,
                 {"body of the poses is 'base_link'", "does not know it", "hangs on 'camera_link'",
                  "static_transform_publisher X Y Z 0 0 0 1 base_link camera_link"});
-  expectContains(launchLine(diagnosis), "parameters:={body_frame: camera_link}");
+  expectContains(launchLine(diagnosis), "map_frame:=world body_frame:=camera_link");
   EXPECT_EQ(diagnosis.trial.usable, 30u);
 }
 
@@ -139,7 +138,7 @@ TEST(PlaceChecksTest, NameTheBodyThatOdometryDoesNot) {
   };
   const Diagnosis diagnosis = vehicle.diagnosis();
   expectFinding(diagnosis, Severity::kError, {"child_frame_id is empty", "body_frame: base_link"});
-  expectContains(launchLine(diagnosis), "parameters:={body_frame: base_link}");
+  expectContains(launchLine(diagnosis), "map_frame:=world body_frame:=base_link");
   EXPECT_EQ(diagnosis.trial.usable, 30u);
 }
 
@@ -155,7 +154,7 @@ TEST(PlaceChecksTest, NameTheBodyOfPoseStamped) {
   expectNothingWrong(diagnosis);
   expectContains(launchLine(diagnosis),
                  "pose_source:=pose pose:=/mavros/local_position/pose map_frame:=world "
-                 "parameters:={body_frame: base_link}");
+                 "map_frame:=world body_frame:=base_link");
 }
 
 TEST(PlaceChecksTest, FindMessagesWithoutFrame) {

@@ -8,8 +8,6 @@
 namespace fiimap {
 namespace {
 
-constexpr bool kComes = true;
-
 TEST(PoseChecksTest, MissPoses) {
   SeenVehicle vehicle;
   vehicle.pose = [](auto*) { return !kComes; };
@@ -46,8 +44,7 @@ TEST(PoseChecksTest, TakePosesFromTf) {
   const Diagnosis diagnosis = vehicle.diagnosis();
   expectNothingWrong(diagnosis);
   expectFinding(diagnosis, Severity::kNote, {"Poses come from TF", "in 'world'"});
-  expectContains(launchLine(diagnosis),
-                 "pose_source:=tf map_frame:=world parameters:={body_frame: base_link}");
+  expectContains(launchLine(diagnosis), "pose_source:=tf map_frame:=world body_frame:=base_link");
   EXPECT_GT(diagnosis.trial.usable, 25u);
 }
 

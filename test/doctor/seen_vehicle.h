@@ -16,7 +16,8 @@
 
 namespace fiimap {
 
-constexpr double kSeconds = 3.0;
+constexpr double kSeconds = 3.0;  // how long it is seen
+constexpr bool kComes = true;     // of a message
 
 /// What is seen of a vehicle that flies ahead at 1 m/s, with all in order until a test changes it:
 /// a depth camera that looks ahead at a wall 3 m away, its place in TF, odometry.

@@ -5,8 +5,6 @@
 namespace fiimap {
 namespace {
 
-constexpr bool kComes = true;
-
 TEST(TimeChecksTest, FindSlowPoses) {
   SeenVehicle vehicle;
   vehicle.pose_rate = 2.0;

@@ -51,7 +51,8 @@ std::string yamlValue(const std::string& parameter, const std::string& text) {
 std::string furtherParameters(const ParameterMap& changes) {
   std::string yaml;
   for (const auto& [name, value] : changes) {
-    const bool has_argument = name == "sensor" || name == "pose_source" || name == "map_frame";
+    const bool has_argument =
+        name == "sensor" || name == "pose_source" || name == "map_frame" || name == "body_frame";
     if (!has_argument) yaml += (yaml.empty() ? "" : ", ") + name + ": " + yamlValue(name, value);
   }
   return yaml.empty() ? "" : '{' + yaml + '}';
@@ -109,6 +110,7 @@ std::vector<std::string> launchWords(const Observation& seen, const MapSetup& se
   add("pose_source", kSourceNames[source]);
   if (setup.node.pose_source != PoseSource::kTf) add(kPoseNames[source], setup.poses);
   add("map_frame", setup.node.map_frame);
+  if (setup.changes.count("body_frame") != 0) add("body_frame", setup.node.body_frame);
   add("parameters", furtherParameters(setup.changes));
   return words;
 }
