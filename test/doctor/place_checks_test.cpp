@@ -153,7 +153,7 @@ TEST(PlaceChecksTest, NameTheBodyOfPoseStamped) {
   const Diagnosis diagnosis = vehicle.diagnosis();
   expectNothingWrong(diagnosis);
   expectContains(launchLine(diagnosis),
-                 "pose_source:=pose pose:=/mavros/local_position/pose map_frame:=world "
+                 "pose_source:=pose pose:=/mavros/local_position/pose "
                  "map_frame:=world body_frame:=base_link");
 }
 

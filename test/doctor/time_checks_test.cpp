@@ -94,6 +94,13 @@ TEST(TimeChecksTest, FindThatSimulatedTimeDoesNotPass) {
   expectNothingWrong(vehicle.diagnosis());
 }
 
+TEST(TimeChecksTest, WonderAtStampsInTheFuture) {
+  SeenVehicle vehicle;
+  vehicle.image_delay = -0.3;
+  vehicle.pose_delay = -0.35;
+  expectFinding(vehicle.diagnosis(), Severity::kWarning, {"Stamps lie 0.35 s in the future"});
+}
+
 TEST(TimeChecksTest, WonderAtRecordingsPlayedWithoutClock) {
   SeenVehicle vehicle;
   vehicle.image_delay = 1000.05;

@@ -1,6 +1,7 @@
 #include "doctor/live_observation.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <fiimap/MapInfo.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
@@ -50,14 +51,9 @@ class GraphListener {
       ros::spinOnce();
       kPause.sleep();
     }
+    describeMap();
     subscribers_.clear();
-    if (observation_->map) {
-      for (const auto& [task, status] : troubles_) {
-        const bool is_error = status.level != diagnostic_msgs::DiagnosticStatus::WARN;
-        auto& texts = is_error ? observation_->map->errors : observation_->map->warnings;
-        texts.push_back(status.message);
-      }
-    }
+    handles_.clear();
   }
 
  private:
@@ -70,7 +66,11 @@ class GraphListener {
     for (const ros::master::TopicInfo& topic : topics) {
       observation_->types[topic.name] = topic.datatype;
     }
-    findMap();
+    for (const std::string& map : mapsIn(observation_->types)) {
+      if (handles_.count(map) != 0) continue;
+      const Callback<MapInfo> nothing = [](const MapInfo::ConstPtr&) {};
+      handles_[map] = node_.subscribe<MapInfo>(map + "/map_handle", kQueue, nothing);
+    }
     for (const ros::master::TopicInfo& topic : topics) subscribe(topic.name, topic.datatype);
     subscribe(kDiagnostics,
               ros::message_traits::DataType<diagnostic_msgs::DiagnosticArray>::value());
@@ -115,29 +115,34 @@ class GraphListener {
   }
 
   void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
-    if (!observation_->map) return;
-    const std::string prefix = observation_->map->name.substr(1) + ": ";
     for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
-      if (status.name.compare(0, prefix.size(), prefix) != 0) continue;
-      troubles_.erase(status.name);
-      const bool is_start = status.values.empty();  // the updater's own first word
-      if (status.level != diagnostic_msgs::DiagnosticStatus::OK && !is_start) {
-        troubles_[status.name] = status;
-      }
+      statuses_[status.name] = status;
     }
   }
 
-  void findMap() {
-    if (observation_->map) return;
-    const std::vector<std::string> maps = mapsIn(observation_->types);
-    const auto found = map_.empty()
-                           ? maps.begin()
-                           : std::find(maps.begin(), maps.end(), ros::names::resolve(map_));
-    if (found == maps.end()) return;
-    observation_->map = RunningMap();
-    observation_->map->name = *found;
-    observation_->map->parameters = parameterMapFromRos(ros::NodeHandle(*found));
-    observation_->map->inputs = inputsOf(*found);
+  /// The map that was asked for, or the first that lives: a master also names those that died.
+  void describeMap() {
+    for (const auto& [name, handle] : handles_) {
+      const bool is_wanted = map_.empty() || ros::names::resolve(map_) == name;
+      if (!is_wanted || handle.getNumPublishers() == 0) continue;
+      observation_->map = RunningMap();
+      observation_->map->name = name;
+      observation_->map->parameters = parameterMapFromRos(ros::NodeHandle(name));
+      observation_->map->inputs = inputsOf(name);
+      addTroubles(&*observation_->map);
+      return;
+    }
+  }
+
+  void addTroubles(RunningMap* map) const {
+    const std::string prefix = map->name.substr(1) + ": ";
+    for (const auto& [name, status] : statuses_) {
+      const bool is_start = status.values.empty();  // the updater's own first word
+      const bool is_ok = status.level == diagnostic_msgs::DiagnosticStatus::OK;
+      if (name.compare(0, prefix.size(), prefix) != 0 || is_start || is_ok) continue;
+      const bool is_error = status.level != diagnostic_msgs::DiagnosticStatus::WARN;
+      (is_error ? map->errors : map->warnings).push_back(status.message);
+    }
   }
 
   /// Topics that the process of a map listens to, with their types.
@@ -178,7 +183,8 @@ class GraphListener {
   Observation* observation_;
   ros::NodeHandle node_;
   std::map<std::string, ros::Subscriber> subscribers_;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> troubles_;  // newest by task
+  std::map<std::string, ros::Subscriber> handles_;                     // by name of the map
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> statuses_;  // newest by name
 };
 
 }  // namespace

@@ -146,14 +146,13 @@ void checkClocks(Examination* e) {
                 plainNumber(std::round((offset + scans_later) * 1e3) / 1e3) + " s).");
   }
   if (!e->seen.live()) return;
-  const double least = std::min(scans.least_delay, poses.least_delay);
   const double most = std::min(scans.delay.median, poses.delay.median);
   if (most > kOtherTime) {
     e->warn("All stamps are " + withUnit(most, "s", 0) + " behind the clock.",
             "If a recording is played: rosbag play --clock, with /use_sim_time set to true before "
             "any node starts. Else set the clocks of the machines.");
-  } else if (least < -kFuture) {
-    e->warn("Stamps lie up to " + withUnit(-least, "s") + " in the future.",
+  } else if (most < -kFuture) {
+    e->warn("Stamps lie " + withUnit(-most, "s") + " in the future.",
             "Synchronise the clocks of the machines.");
   }
 }
