@@ -20,6 +20,10 @@ struct LogOdds {
   std::int8_t max;        ///< L_max
   std::int8_t threshold;  ///< occupied from here on
 
+  /// Steps of another scale in this one: the nearest to the same log-odds within L_min and L_max.
+  std::int8_t convert(std::int8_t steps, const LogOdds& other) const;
+  bool operator==(const LogOdds& other) const;
+
   /// Scans that must hit an unknown voxel until it is occupied.
   int hitsToOccupy() const;
   /// Scans that must see through a voxel of the highest certainty until it is free.

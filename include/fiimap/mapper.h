@@ -46,6 +46,7 @@ struct ScanReport {
   std::size_t raise = 0;
   std::size_t lower = 0;
   std::size_t forgotten = 0;
+  VoxelBox update_box;  ///< voxels that it could change
   StageTimes times_ms;
 
   std::size_t changeScore() const { return raise + lower; }
@@ -73,12 +74,18 @@ class Mapper {
   /// Forgets everything; stamps may begin again.
   void reset();
 
-  /// Changes the inflation from now on; the inflated layer is exact again on return.
-  /// \throws std::invalid_argument when the configuration with these values is not valid.
-  void setInflation(double radius, ElementShape shape);
+  /// Goes on with another configuration. Scans from now on are integrated as a mapper would that
+  /// was made with it; what is in the map stays, each voxel's probability rounded to the nearest
+  /// step of the new LogOdds and clamped to its limits, and occupied is what reaches the new p_occ.
+  /// Both layers are exact on return. Costs what changes; a pass over all that is known when the
+  /// probabilities do, or the inflation.
+  /// \throws std::invalid_argument, with the map and its configuration unchanged, when the
+  /// configuration is not valid, or differs in what is not `tunable` (mapperParameters()) or in the
+  /// number of sensors.
+  void reconfigure(const MapperConfig& config);
 
   const MapperConfig& config() const { return config_; }
-  const LogOdds& logOdds() const { return log_odds_; }
+  const LogOdds& logOdds() const { return stages_->integrator.logOdds(); }
   /// For tests, evaluation and statistics.
   const SlidingGrid& grid() const { return grid_; }
   std::size_t memoryBytes() const;
@@ -89,17 +96,23 @@ class Mapper {
     PointProjector points;
   };
 
+  /// What scans pass through: made from a configuration and nothing else.
+  struct Stages {
+    explicit Stages(const MapperConfig& config);
+
+    std::vector<SensorProjectors> projectors;  // by sensor
+    RayCaster ray_caster;
+    ScanIntegrator integrator;
+    std::unique_ptr<Inflater> inflater;
+  };
+
   ScanReport integrateScan(const ScanPose& pose, ScanReport report);
   void follow(const VoxelIndex& vehicle);
 
   MapperConfig config_;
   VoxelLattice lattice_;
-  LogOdds log_odds_;
   SlidingGrid grid_;
-  std::vector<SensorProjectors> projectors_;  // by sensor
-  RayCaster ray_caster_;
-  ScanIntegrator integrator_;
-  std::unique_ptr<Inflater> inflater_;
+  std::unique_ptr<Stages> stages_;
 
   RangeData scan_;
   ScanMask mask_;

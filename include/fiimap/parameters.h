@@ -12,6 +12,9 @@ namespace fiimap {
 /// Parameter values as text by name, from wherever they come: ROS, YAML or a command line.
 using ParameterMap = std::map<std::string, std::string>;
 
+/// What a parameter's value is.
+enum class ValueKind { kNumber, kInteger, kFlag, kText };
+
 /// One setting of a configuration: its description and typed access to its field through text.
 struct Parameter {
   std::string name;
@@ -21,7 +24,15 @@ struct Parameter {
   std::function<std::string()> get;
   /// Parses and range-checks; throws std::invalid_argument naming parameter, value and range.
   std::function<void(const std::string&)> set;
+
+  ValueKind kind = ValueKind::kText;
+  double min = 0.0, max = 0.0;            ///< of numbers, both included
+  std::vector<std::string> choices = {};  ///< where only these are allowed
+  bool tunable = false;                   ///< may change while the map is in use
 };
+
+/// The shortest text that reads back as the same number.
+std::string toText(double value);
 
 /// Builders of Parameters bound to a field, which must outlive them.
 Parameter numberParameter(const std::string& name, double* field, double min, double max,
@@ -35,6 +46,10 @@ Parameter textParameter(const std::string& name, std::string* field, const std::
 template <typename Enum>
 Parameter choiceParameter(const std::string& name, Enum* field,
                           const std::vector<std::string>& names, const std::string& meaning);
+
+/// Marks what may change while the map is in use.
+Parameter tunable(Parameter parameter);
+std::vector<Parameter> tunable(std::vector<Parameter> parameters);
 
 /// All parameters of a MapperConfig, bound to `config`, in the order of config/default.yaml.
 std::vector<Parameter> mapperParameters(MapperConfig* config);
@@ -71,7 +86,11 @@ Parameter choiceParameter(const std::string& name, Enum* field,
           [field, names] { return names[static_cast<std::size_t>(*field)]; },
           [name, field, names](const std::string& value) {
             *field = static_cast<Enum>(internal::indexOfChoice(name, value, names));
-          }};
+          },
+          ValueKind::kText,
+          0.0,
+          0.0,
+          names};
 }
 
 }  // namespace fiimap

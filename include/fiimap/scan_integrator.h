@@ -18,13 +18,22 @@ class ScanIntegrator {
  public:
   explicit ScanIntegrator(const LogOdds& log_odds) : log_odds_(log_odds), kernels_(kernels()) {}
 
+  const LogOdds& logOdds() const { return log_odds_; }
+
   /// Updates known, occupied and log-odds from `mask`, whose box must lie in the grid's window.
   /// Appends to changes->lower and changes->raise. The inflated plane is left to the Inflater.
   void apply(const ScanMask& mask, SlidingGrid* grid, ChangeSet* changes);
 
+  /// Takes over a grid whose log-odds are steps of another scale: each becomes the nearest step of
+  /// this one within its limits, and occupied is what reaches this one's threshold. Appends to
+  /// changes as apply() does. Passes over all that is known, unless the scales are the same.
+  void convert(const LogOdds& from, SlidingGrid* grid, ChangeSet* changes);
+
  private:
   void applyRow(const ScanMask& mask, int x, int y, int columns, SlidingGrid* grid,
                 ChangeSet* changes);
+  void convertRow(const std::int8_t* converted, int x, int y, SlidingGrid* grid,
+                  ChangeSet* changes);
   void listFlips(int x, int y, const std::uint64_t* occupied_before, int words,
                  const SlidingGrid& grid, ChangeSet* changes) const;
 

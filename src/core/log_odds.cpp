@@ -30,6 +30,16 @@ LogOdds::LogOdds(const MapperConfig& config) {
   threshold = std::min(max, std::max<std::int8_t>(1, quantise(logOdds(config.p_occ), unit)));
 }
 
+std::int8_t LogOdds::convert(std::int8_t steps, const LogOdds& other) const {
+  const long nearest = std::lround(steps * other.unit / unit);
+  return static_cast<std::int8_t>(std::clamp<long>(nearest, min, max));
+}
+
+bool LogOdds::operator==(const LogOdds& other) const {
+  return unit == other.unit && hit == other.hit && miss == other.miss && min == other.min &&
+         max == other.max && threshold == other.threshold;
+}
+
 int LogOdds::hitsToOccupy() const { return (threshold + hit - 1) / hit; }
 
 int LogOdds::missesToClear() const { return (max - threshold) / -miss + 1; }

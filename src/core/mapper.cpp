@@ -4,6 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "fiimap/parameters.h"
 
 namespace fiimap {
 namespace {
@@ -39,6 +43,23 @@ void requireValid(const DepthImage& image, const PinholeIntrinsics& intrinsics) 
   }
 }
 
+/// Parameters are bound to their configuration, so both are copies.
+void refuseFixedChanges(MapperConfig from, MapperConfig to) {
+  const auto refuse = [](const std::string& name, const std::string& value,
+                         const std::string& fixed) {
+    throw std::invalid_argument("parameter " + name + " = '" + value + "': must stay '" + fixed +
+                                "' while the map is in use");
+  };
+  const std::vector<Parameter> before = mapperParameters(&from), after = mapperParameters(&to);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const bool may_differ = before[i].tunable || before[i].get() == after[i].get();
+    if (!may_differ) refuse(before[i].name, after[i].get(), before[i].get());
+  }
+  if (from.sensorCount() != to.sensorCount()) {
+    refuse("sensors", std::to_string(to.sensorCount()), std::to_string(from.sensorCount()));
+  }
+}
+
 constexpr double kRotationTolerance = 1e-3;
 
 void requireValid(const ScanPose& pose, const VoxelLattice& lattice) {
@@ -56,14 +77,17 @@ void requireValid(const ScanPose& pose, const VoxelLattice& lattice) {
 Mapper::Mapper(const MapperConfig& config)
     : config_(validated(config)),
       lattice_(config.resolution),
-      log_odds_(config),
       grid_(lattice_.sizeOf(config.mapSize())),
-      ray_caster_(lattice_, config.ray_end_cut, config.min_hit_cover, config.round_rays),
-      integrator_(log_odds_),
-      inflater_(makeInflater(config)) {
+      stages_(std::make_unique<Stages>(config)) {}
+
+Mapper::Stages::Stages(const MapperConfig& config)
+    : ray_caster(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover,
+                 config.round_rays),
+      integrator(LogOdds(config)),
+      inflater(makeInflater(config)) {
   for (std::size_t sensor = 0; sensor < config.sensorCount(); ++sensor) {
     const MapperConfig own = config.withOnly(sensor);
-    projectors_.push_back({DepthProjector(own), PointProjector(own)});
+    projectors.push_back({DepthProjector(own), PointProjector(own)});
   }
 }
 
@@ -73,7 +97,8 @@ ScanReport Mapper::integrate(const DepthImage& image, const PinholeIntrinsics& i
   requireValid(pose, lattice_);
   Stopwatch stopwatch;
   ScanReport report;
-  report.readings = projectors_.at(sensor).depth.project(image, intrinsics, pose.T_W_S, &scan_);
+  report.readings =
+      stages_->projectors.at(sensor).depth.project(image, intrinsics, pose.T_W_S, &scan_);
   report.times_ms.project = stopwatch.lap();
   return integrateScan(pose, report);
 }
@@ -82,7 +107,7 @@ ScanReport Mapper::integrate(const PointScan& points, const ScanPose& pose, std:
   requireValid(pose, lattice_);
   Stopwatch stopwatch;
   ScanReport report;
-  report.readings = projectors_.at(sensor).points.project(points, pose.T_W_S, &scan_);
+  report.readings = stages_->projectors.at(sensor).points.project(points, pose.T_W_S, &scan_);
   report.times_ms.project = stopwatch.lap();
   return integrateScan(pose, report);
 }
@@ -102,14 +127,14 @@ ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   report.times_ms.slide = stopwatch.lap();
 
   const VoxelIndex update_range = lattice_.sizeOf(config_.localUpdateRange());
-  const VoxelBox update_box = VoxelLattice::boxAround(vehicle, update_range);
-  report.rays = ray_caster_.cast(scan_, update_box.intersection(grid_.window()), &mask_);
+  report.update_box = VoxelLattice::boxAround(vehicle, update_range).intersection(grid_.window());
+  report.rays = stages_->ray_caster.cast(scan_, report.update_box, &mask_);
   report.times_ms.raycast = stopwatch.lap();
 
-  integrator_.apply(mask_, &grid_, &changes_);
+  stages_->integrator.apply(mask_, &grid_, &changes_);
   report.times_ms.fuse = stopwatch.lap();
 
-  inflater_->update(changes_, &grid_);
+  stages_->inflater->update(changes_, &grid_);
   report.times_ms.inflate = stopwatch.lap();
 
   report.raise = changes_.raise.size();
@@ -153,14 +178,22 @@ void Mapper::reset() {
   stamp_ns_ = 0;
 }
 
-void Mapper::setInflation(double radius, ElementShape shape) {
-  MapperConfig changed = config_;
-  changed.inflation_radius = radius;
-  changed.inflation_shape = shape;
-  changed.validate();
-  config_ = changed;
-  inflater_ = makeInflater(config_);
-  rebuildInflation(inflater_.get(), &grid_);
+void Mapper::reconfigure(const MapperConfig& config) {
+  config.validate();
+  refuseFixedChanges(config_, config);
+  auto stages = std::make_unique<Stages>(config);
+  const bool keeps_element = config.inflation_shape == config_.inflation_shape &&
+                             config.inflation_radius == config_.inflation_radius;
+
+  changes_.clear();
+  stages->integrator.convert(logOdds(), &grid_, &changes_);
+  if (keeps_element) {
+    stages->inflater->update(changes_, &grid_);
+  } else {
+    rebuildInflation(stages->inflater.get(), &grid_);
+  }
+  stages_ = std::move(stages);
+  config_ = config;
 }
 
 std::size_t Mapper::memoryBytes() const { return grid_.memoryBytes() + mask_.memoryBytes(); }

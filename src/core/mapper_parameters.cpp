@@ -33,7 +33,17 @@ Parameter connectivityParameter(int* field) {
               return;
             }
             refuse("parameter " + name + " = '" + text + "': must be " + allowed);
-          }};
+          },
+          ValueKind::kInteger,
+          6.0,
+          26.0,
+          {"6", "18", "26"}};
+}
+
+Parameter updateRangeParameter(const std::string& name, double* field) {
+  return tunable(numberParameter(name, field, kMinResolution, kMaxMapSize, "m",
+                                 "full extent of the box around the vehicle that scans may "
+                                 "change"));
 }
 
 /// Those of the window.
@@ -55,15 +65,12 @@ std::vector<Parameter> windowParameters(MapperConfig* c) {
                       "middle of a fixed window"),
       numberParameter("map_center_z", &c->map_center_z, -kMaxCenter, kMaxCenter, "m",
                       "middle of a fixed window"),
-      numberParameter("slide_distance", &c->slide_distance, 0.0, kMaxMapSize, "m",
-                      "how far the vehicle may leave the window's middle along an axis before the "
-                      "window follows on that axis"),
-      numberParameter("local_update_range_x", &c->local_update_range_x, kMinResolution, kMaxMapSize,
-                      "m", "full extent of the box around the vehicle that scans may change"),
-      numberParameter("local_update_range_y", &c->local_update_range_y, kMinResolution, kMaxMapSize,
-                      "m", "full extent of the box around the vehicle that scans may change"),
-      numberParameter("local_update_range_z", &c->local_update_range_z, kMinResolution, kMaxMapSize,
-                      "m", "full extent of the box around the vehicle that scans may change"),
+      tunable(numberParameter("slide_distance", &c->slide_distance, 0.0, kMaxMapSize, "m",
+                              "how far the vehicle may leave the window's middle along an axis "
+                              "before the window follows on that axis")),
+      updateRangeParameter("local_update_range_x", &c->local_update_range_x),
+      updateRangeParameter("local_update_range_y", &c->local_update_range_y),
+      updateRangeParameter("local_update_range_z", &c->local_update_range_z),
       numberParameter("memory_limit", &c->memory_limit, 0.0, kMaxMemory, "MB",
                       "a map that may need more when all is seen is refused at start; 0: the "
                       "machine's memory"),
@@ -72,7 +79,7 @@ std::vector<Parameter> windowParameters(MapperConfig* c) {
 
 /// Those of the rays that hold for all sensors, and of the voxels.
 std::vector<Parameter> occupancyParameters(MapperConfig* c) {
-  return {
+  return tunable({
       numberParameter("ray_end_cut", &c->ray_end_cut, 0.0, 100.0, "voxels",
                       "a ray frees voxels up to this far in front of the surface that it met"),
       numberParameter("min_hit_cover", &c->min_hit_cover, 0.0, 1.0, "of a voxel's face",
@@ -90,11 +97,11 @@ std::vector<Parameter> occupancyParameters(MapperConfig* c) {
                       "upper clamp of the probability (eq. 8)"),
       numberParameter("p_occ", &c->p_occ, 0.501, 0.999, "",
                       "a voxel is occupied from this probability on"),
-  };
+  });
 }
 
 std::vector<Parameter> inflationParameters(MapperConfig* c) {
-  return {
+  return tunable({
       numberParameter("inflation_radius", &c->inflation_radius, 0.0, kMaxRadius, "m",
                       "how far obstacles are inflated; at most 64 voxels"),
       choiceParameter("inflation_shape", &c->inflation_shape, {"ball", "cube", "diamond"},
@@ -110,7 +117,7 @@ std::vector<Parameter> inflationParameters(MapperConfig* c) {
                       "height of the virtual floor"),
       numberParameter("virtual_ceiling", &c->virtual_ceiling, -kMaxCenter, kMaxCenter, "m",
                       "height of the virtual ceiling"),
-  };
+  });
 }
 
 }  // namespace

@@ -9,14 +9,6 @@
 namespace fiimap {
 namespace {
 
-std::string toText(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(std::numeric_limits<double>::digits10);
-  text << value;
-  return text.str();
-}
-
 [[noreturn]] void refuse(const std::string& name, const std::string& value,
                          const std::string& allowed) {
   throw std::invalid_argument("parameter " + name + " = '" + value + "': must be " + allowed);
@@ -36,6 +28,20 @@ std::string describeRange(const std::string& kind, double min, double max,
 
 }  // namespace
 
+std::string toText(double value) {
+  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(digits);
+    text << value;
+    double read = 0.0;
+    if (digits >= std::numeric_limits<double>::max_digits10 ||
+        (parseNumber(text.str(), &read) && read == value)) {
+      return text.str();
+    }
+  }
+}
+
 Parameter numberParameter(const std::string& name, double* field, double min, double max,
                           const std::string& unit, const std::string& meaning) {
   const std::string allowed = describeRange("a number", min, max, unit);
@@ -50,7 +56,10 @@ Parameter numberParameter(const std::string& name, double* field, double min, do
               refuse(name, text, allowed);
             }
             *field = value;
-          }};
+          },
+          ValueKind::kNumber,
+          min,
+          max};
 }
 
 Parameter integerParameter(const std::string& name, int* field, int min, int max,
@@ -68,7 +77,10 @@ Parameter integerParameter(const std::string& name, int* field, int min, int max
               refuse(name, text, allowed);
             }
             *field = static_cast<int>(value);
-          }};
+          },
+          ValueKind::kInteger,
+          static_cast<double>(min),
+          static_cast<double>(max)};
 }
 
 Parameter flagParameter(const std::string& name, bool* field, const std::string& meaning) {
@@ -86,7 +98,8 @@ Parameter flagParameter(const std::string& name, bool* field, const std::string&
             } else {
               refuse(name, text, allowed);
             }
-          }};
+          },
+          ValueKind::kFlag};
 }
 
 Parameter textParameter(const std::string& name, std::string* field, const std::string& meaning) {
@@ -96,6 +109,16 @@ Parameter textParameter(const std::string& name, std::string* field, const std::
           meaning,
           [field] { return *field; },
           [field](const std::string& text) { *field = text; }};
+}
+
+Parameter tunable(Parameter parameter) {
+  parameter.tunable = true;
+  return parameter;
+}
+
+std::vector<Parameter> tunable(std::vector<Parameter> parameters) {
+  for (Parameter& parameter : parameters) parameter.tunable = true;
+  return parameters;
 }
 
 void requireLess(const std::string& low_name, double low, const std::string& high_name,

@@ -14,7 +14,7 @@ std::vector<Parameter> readingParameters(ReadingConfig* c, const std::string& pr
                          const std::string& meaning) {
     return choiceParameter(name, field, {"ignore", "free"}, meaning);
   };
-  return {
+  return tunable({
       numberParameter(prefix + "depth_scale", &c->depth_scale, 1e-6, 1.0, "m per unit",
                       "metres per unit of a 16-bit depth image"),
       numberParameter(prefix + "min_depth", &c->min_depth, kMinRange, kMaxRange, "m",
@@ -37,7 +37,7 @@ std::vector<Parameter> readingParameters(ReadingConfig* c, const std::string& pr
                       "nearer points are ignored (the vehicle's own body)"),
       numberParameter(prefix + "max_ray_length", &c->max_ray_length, kMinRange, kMaxRange, "m",
                       "rays are cut off at this length; farther points do not mark obstacles"),
-  };
+  });
 }
 
 void ReadingConfig::validate(const std::string& prefix) const {

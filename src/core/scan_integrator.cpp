@@ -1,6 +1,7 @@
 #include "fiimap/scan_integrator.h"
 
 #include <algorithm>
+#include <array>
 
 namespace fiimap {
 namespace {
@@ -33,6 +34,17 @@ bool anyBit(const std::uint64_t* words, int count) {
   std::uint64_t any = 0;
   for (int w = 0; w < count; ++w) any |= words[w];
   return any != 0;
+}
+
+constexpr int kByteValues = 256;
+
+/// By the byte of a log-odds, what it becomes in another scale.
+std::array<std::int8_t, kByteValues> conversionTable(const LogOdds& from, const LogOdds& to) {
+  std::array<std::int8_t, kByteValues> table{};
+  for (int byte = 0; byte < kByteValues; ++byte) {
+    table[byte] = to.convert(static_cast<std::int8_t>(static_cast<std::uint8_t>(byte)), from);
+  }
+  return table;
 }
 
 }  // namespace
@@ -81,6 +93,37 @@ void ScanIntegrator::applyRow(const ScanMask& mask, int mask_x, int mask_y, int 
   listFlips(x, y, occupied_before, words, *grid, changes);
   grid->writeColumns(Plane::kKnown, x, y, columns, known_.data());
   grid->writeColumns(Plane::kOccupied, x, y, columns, occupied_.data());
+}
+
+void ScanIntegrator::convert(const LogOdds& from, SlidingGrid* grid, ChangeSet* changes) {
+  if (from == log_odds_) return;
+  const auto converted = conversionTable(from, log_odds_);
+  occupied_.resize(static_cast<std::size_t>(kTileSide) * grid->layout().words());
+  for (const int slot : grid->liveSlots()) {
+    const VoxelIndex origin = grid->tileOrigin(slot);
+    for (int x = origin.x(); x < origin.x() + kTileSide; ++x) {
+      convertRow(converted.data(), x, origin.y(), grid, changes);
+    }
+  }
+}
+
+/// The columns of a tile at one x.
+void ScanIntegrator::convertRow(const std::int8_t* converted, int x, int y, SlidingGrid* grid,
+                                ChangeSet* changes) {
+  const int words = kTileSide * grid->layout().words();
+  std::int8_t* const log_odds = grid->logOdds(x, y);
+  const std::uint64_t* const known = grid->column(Plane::kKnown, x, y);
+  for (int w = 0; w < words; ++w) {
+    occupied_[w] = 0;
+    forEachBit(&known[w], 1, [&](int bit) {
+      std::int8_t& value = log_odds[w * kWordBits + bit];
+      value = converted[static_cast<std::uint8_t>(value)];
+      const std::uint64_t is_occupied = value >= log_odds_.threshold ? 1 : 0;
+      occupied_[w] |= is_occupied << bit;
+    });
+  }
+  listFlips(x, y, grid->column(Plane::kOccupied, x, y), words, *grid, changes);
+  grid->writeColumns(Plane::kOccupied, x, y, kTileSide, occupied_.data());
 }
 
 /// Appends the voxels of a row whose state is not what it was.

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
-#include <locale>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,21 +23,6 @@ void append(const std::string& name, const std::string& element, bool is_text, s
   *list += (list->empty() ? "" : " ") + element;
 }
 
-/// The shortest text that reads back as the same number.
-std::string toText(double value) {
-  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(digits);
-    text << value;
-    std::istringstream back(text.str());
-    back.imbue(std::locale::classic());
-    double read = 0.0;
-    back >> read;
-    if (read == value || digits >= std::numeric_limits<double>::max_digits10) return text.str();
-  }
-}
-
 std::string toText(const std::string& name, XmlRpc::XmlRpcValue value) {
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeBoolean:
@@ -47,7 +30,7 @@ std::string toText(const std::string& name, XmlRpc::XmlRpcValue value) {
     case XmlRpc::XmlRpcValue::TypeInt:
       return std::to_string(static_cast<int>(value));
     case XmlRpc::XmlRpcValue::TypeDouble:
-      return toText(static_cast<double>(value));
+      return fiimap::toText(static_cast<double>(value));
     case XmlRpc::XmlRpcValue::TypeString:
       return static_cast<std::string>(value);
     case XmlRpc::XmlRpcValue::TypeArray: {

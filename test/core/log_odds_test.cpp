@@ -176,5 +176,37 @@ TEST(LogOddsTest, DefaultsNeedThreeHitsAndThreeMisses) {
   EXPECT_EQ(log_odds.missesToClear(), 3);
 }
 
+TEST(LogOddsTest, ConvertsToTheNearestStepWithinTheLimits) {
+  test::Random random(31);
+  for (int round = 0; round < 300; ++round) {
+    const LogOdds from(randomProbabilities(random)), to(randomProbabilities(random));
+    for (int steps = from.min; steps <= from.max; ++steps) {
+      const double log_odds = steps * from.unit;
+      const int converted = to.convert(static_cast<std::int8_t>(steps), from);
+      ASSERT_GE(converted, to.min);
+      ASSERT_LE(converted, to.max);
+      const double error = std::abs(converted * to.unit - log_odds);
+      for (const int other : {converted - 1, converted + 1}) {
+        if (other < to.min || other > to.max) continue;
+        ASSERT_LE(error, std::abs(other * to.unit - log_odds) + 1e-12) << "round " << round;
+      }
+    }
+  }
+}
+
+TEST(LogOddsTest, ConvertsToItselfWhereOnlyTheThresholdOrALimitDiffers) {
+  MapperConfig config;
+  const LogOdds from(config);
+  config.p_occ = 0.6;
+  config.p_min = 0.2;
+  const LogOdds to(config);
+  EXPECT_FALSE(from == to);
+  EXPECT_TRUE(from == LogOdds(MapperConfig()));
+  for (int steps = from.min; steps <= from.max; ++steps) {
+    const int converted = to.convert(static_cast<std::int8_t>(steps), from);
+    EXPECT_EQ(converted, std::max<int>(steps, to.min));
+  }
+}
+
 }  // namespace
 }  // namespace fiimap

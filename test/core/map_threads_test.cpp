@@ -69,7 +69,10 @@ void fly(test::Random* random, int scans) {
       handle->publish(nullptr);
     }
     if (test::chance(*random, 0.05)) {
-      mapper.setInflation(test::uniformReal(*random, 0.0, 1.0), ElementShape::kBall);
+      MapperConfig config = mapper.config();
+      config.inflation_radius = test::uniformReal(*random, 0.0, 1.0);
+      config.p_occ = test::uniformReal(*random, 0.6, 0.9);
+      mapper.reconfigure(config);
     }
   }
 }

@@ -44,6 +44,12 @@ inline Eigen::Vector3d centerOfWindow(const Mapper& mapper) {
   return kResolution * (window.min + window.size() / 2).cast<double>().array() + kResolution / 2;
 }
 
+inline MapperConfig withInflation(MapperConfig config, double radius, ElementShape shape) {
+  config.inflation_radius = radius;
+  config.inflation_shape = shape;
+  return config;
+}
+
 /// What a planner could see of a map.
 struct State {
   VoxelBox window;

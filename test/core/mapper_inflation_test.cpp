@@ -43,7 +43,12 @@ class Mappers {
   }
   void setElement(const ElementDefinition& element) {
     element_ = element;
-    for (const auto& mapper : mappers_) mapper->setInflation(element.radius(), element.shape);
+    for (const auto& mapper : mappers_) {
+      MapperConfig config = mapper->config();
+      config.inflation_radius = element.radius();
+      config.inflation_shape = element.shape;
+      mapper->reconfigure(config);
+    }
   }
 
   void check() const {

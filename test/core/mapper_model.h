@@ -70,6 +70,16 @@ class MapperModel {
   }
 
   void reset() { values_.clear(); }
+
+  /// Voxels keep their log-odds to the nearest step, of two that are as near the one farther from
+  /// 0, within the limits.
+  void reconfigure(const MapperConfig& config) {
+    const LogOdds before = log_odds_;
+    config_ = config;
+    log_odds_ = LogOdds(config);
+    for (auto& [v, value] : values_) value = nearestStep(value * before.unit);
+  }
+
   std::size_t lowered() const { return lowered_; }
   std::size_t raised() const { return raised_; }
   std::size_t forgotten() const { return forgotten_; }
@@ -133,6 +143,17 @@ class MapperModel {
     const bool after = value >= log_odds_.threshold;
     if (after && !before) ++lowered_;
     if (before && !after) ++raised_;
+  }
+
+  int nearestStep(double log_odds) const {
+    const auto error = [&](int step) { return std::abs(step * log_odds_.unit - log_odds); };
+    int nearest = 0;
+    for (const int sign : {-1, 1}) {
+      for (int step = 0; step >= log_odds_.min && step <= log_odds_.max; step += sign) {
+        if (error(step) <= error(nearest)) nearest = step;
+      }
+    }
+    return nearest;
   }
 
   void forgetOutside(const VoxelBox& window) {

@@ -103,7 +103,9 @@ TEST(MapperRefusalTest, RefusesABadInflationAndKeepsTheOldOne) {
   Mapper mapper(smallConfig());
   seeAnObstacle(&mapper, {0.125, 0.125, 0.125});
   for (const double bad : {-0.1, kNan, kInf, 1000.0, 17.0}) {
-    EXPECT_THROW(mapper.setInflation(bad, ElementShape::kCube), std::invalid_argument) << bad;
+    EXPECT_THROW(mapper.reconfigure(test::withInflation(smallConfig(), bad, ElementShape::kCube)),
+                 std::invalid_argument)
+        << bad;
     EXPECT_EQ(mapper.config().inflation_radius, 0.5);
     EXPECT_EQ(mapper.config().inflation_shape, ElementShape::kBall);
     EXPECT_EQ(mapper.grid().count(Plane::kInflated), 33);

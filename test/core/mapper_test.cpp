@@ -245,13 +245,13 @@ TEST(MapperTest, ChangesItsInflationAtOnce) {
   Mapper mapper(smallConfig());
   seeAnObstacle(&mapper, {0.125, 0.125, 0.125});
   ASSERT_EQ(mapper.grid().count(Plane::kInflated), 33);
-  mapper.setInflation(0.25, ElementShape::kCube);
+  mapper.reconfigure(test::withInflation(mapper.config(), 0.25, ElementShape::kCube));
   EXPECT_EQ(mapper.grid().count(Plane::kInflated), 27);
   EXPECT_EQ(mapper.snapshot()->info().inflation_radius, 0.25);
   EXPECT_EQ(mapper.config().inflation_shape, ElementShape::kCube);
-  mapper.setInflation(0.5, ElementShape::kDiamond);
+  mapper.reconfigure(test::withInflation(mapper.config(), 0.5, ElementShape::kDiamond));
   EXPECT_EQ(mapper.grid().count(Plane::kInflated), 25);
-  mapper.setInflation(0.0, ElementShape::kBall);
+  mapper.reconfigure(test::withInflation(mapper.config(), 0.0, ElementShape::kBall));
   EXPECT_EQ(mapper.grid().count(Plane::kInflated), 1);
 }
 

@@ -10,14 +10,20 @@ namespace {
 
 constexpr double kClock = 100.0;  // s
 
+void inflateMore(Mapper* mapper) {
+  MapperConfig config = mapper->config();
+  config.inflation_radius = 0.5;
+  config.inflation_shape = ElementShape::kCube;
+  mapper->reconfigure(config);
+}
+
 TEST(MapEdit, ReadersGetTheEditedMap) {
   FaultRig rig(RigInputs::kDepth, kClock);
   rig.fly(3);
   const std::shared_ptr<const Snapshot> before = rig.state().snapshot;
   ASSERT_TRUE(before);
 
-  EXPECT_TRUE(
-      rig.mapping().edit([](Mapper* mapper) { mapper->setInflation(0.5, ElementShape::kCube); }));
+  EXPECT_TRUE(rig.mapping().edit(inflateMore));
 
   const std::shared_ptr<const Snapshot> after = rig.state().snapshot;
   EXPECT_EQ(after->info().inflation_radius, 0.5);
@@ -28,8 +34,7 @@ TEST(MapEdit, ReadersGetTheEditedMap) {
 
 TEST(MapEdit, BeforeTheFirstScanThereIsStillNoMap) {
   FaultRig rig(RigInputs::kDepth, kClock);
-  EXPECT_TRUE(
-      rig.mapping().edit([](Mapper* mapper) { mapper->setInflation(0.5, ElementShape::kCube); }));
+  EXPECT_TRUE(rig.mapping().edit(inflateMore));
   EXPECT_FALSE(rig.state().snapshot);
   rig.fly(1);
   EXPECT_EQ(rig.state().snapshot->info().inflation_radius, 0.5);

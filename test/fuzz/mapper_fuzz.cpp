@@ -24,6 +24,23 @@ ElementDefinition takeElement(ByteSource* bytes) {
   return {shape, bytes->integer(0, kMostRadiusMm), kResolutionMm};
 }
 
+void takeTunable(MapperConfig* config, ByteSource* bytes) {
+  const auto voxels = [&](int most) { return bytes->integer(1, most) * config->resolution; };
+  config->local_update_range_x = voxels(12);
+  config->local_update_range_y = voxels(14);
+  config->local_update_range_z = voxels(70);
+  config->slide_distance = bytes->real(0.0, config->mapSize().minCoeff() / 2.0);
+  config->ray_end_cut = bytes->integer(0, 4) * 0.5;
+  config->round_rays = bytes->integer(0, 3) != 0;
+  config->max_ray_length = bytes->real(0.5, 10.0);
+  config->p_hit = bytes->real(0.55, 0.95);
+  config->p_miss = bytes->real(0.13, 0.45);
+  config->p_occ = bytes->real(0.55, 0.9);
+  config->inflation_method = static_cast<InflationMethod>(bytes->integer(0, 2));
+  config->bfs_connectivity = bytes->flag() ? 6 : bytes->flag() ? 18 : 26;
+  config->beyond_max_depth = bytes->flag() ? ReadingPolicy::kIgnore : ReadingPolicy::kFree;
+}
+
 MapperConfig takeConfig(const ElementDefinition& element, ByteSource* bytes) {
   MapperConfig config;
   config.resolution = element.resolution();
@@ -31,25 +48,15 @@ MapperConfig takeConfig(const ElementDefinition& element, ByteSource* bytes) {
   config.map_size_x = voxels(12);
   config.map_size_y = voxels(40);
   config.map_size_z = voxels(12);
-  config.local_update_range_x = voxels(12);
-  config.local_update_range_y = voxels(14);
-  config.local_update_range_z = voxels(70);
-  config.slide_distance = bytes->real(0.0, config.mapSize().minCoeff() / 2.0);
-  config.ray_end_cut = bytes->integer(0, 4) * 0.5;
   config.min_hit_cover = 0.0;  // the model has no cover
   config.min_depth = config.min_ray_length = 0.1;
-  config.max_ray_length = bytes->real(0.5, 10.0);
   config.max_depth = 100.0;
   config.pixel_step = 1;
   config.border_margin = 0;
-  config.p_hit = bytes->real(0.55, 0.95);
-  config.p_miss = bytes->real(0.13, 0.45);
   config.inflation_radius = element.radius();
   config.inflation_shape = element.shape;
-  config.inflation_method = static_cast<InflationMethod>(bytes->integer(0, 2));
-  config.bfs_connectivity = bytes->flag() ? 6 : bytes->flag() ? 18 : 26;
   config.map_mode = bytes->integer(0, 7) == 0 ? MapMode::kFixed : MapMode::kSliding;
-  config.beyond_max_depth = bytes->flag() ? ReadingPolicy::kIgnore : ReadingPolicy::kFree;
+  takeTunable(&config, bytes);
   return config;
 }
 
@@ -70,7 +77,7 @@ class Session {
         model_.reset();
         break;
       case 1:
-        changeInflation();
+        reconfigure();
         break;
       case 2:
         keepSnapshot();
@@ -108,9 +115,15 @@ class Session {
     std::vector<VoxelIndex> voxels[kPlaneCount];
   };
 
-  void changeInflation() {
+  /// Anything that may change; the window stays.
+  void reconfigure() {
     element_ = takeElement(&bytes_);
-    mapper_.setInflation(element_.radius(), element_.shape);
+    MapperConfig config = mapper_.config();
+    config.inflation_radius = element_.radius();
+    config.inflation_shape = element_.shape;
+    takeTunable(&config, &bytes_);
+    mapper_.reconfigure(config);
+    model_.reconfigure(config);
   }
 
   void keepSnapshot() {

@@ -153,7 +153,7 @@ class Soak {
   void step() {
     ++scans_;
     if (chance(random_, 0.0005)) reset();
-    if (chance(random_, 0.002)) changeInflation();
+    if (chance(random_, 0.002)) reconfigure();
     const ScanPose pose = journey_.next();
     small_.integrate(PointScan(), pose);
     const VoxelBox window = small_.grid().window();
@@ -187,12 +187,24 @@ class Soak {
     ++resets_;
   }
 
-  void changeInflation() {
+  /// Radius and shape, and every voxel's log-odds.
+  void reconfigure() {
     constexpr int kMostRadiusMm = 1000;
     element_ = {static_cast<ElementShape>(uniformInt(random_, 0, 2)),
                 uniformInt(random_, 0, kMostRadiusMm), kResolutionMm};
-    small_.setInflation(element_.radius(), element_.shape);
-    large_.setInflation(uniformReal(random_, 0.0, 0.5), element_.shape);
+    MapperConfig small = small_.config(), large = large_.config();
+    small.inflation_radius = element_.radius();
+    large.inflation_radius = uniformReal(random_, 0.0, 0.5);
+    small.max_ray_length = uniformReal(random_, 1.0, 4.0);
+    for (MapperConfig* config : {&small, &large}) {
+      config->inflation_shape = element_.shape;
+      config->p_hit = uniformReal(random_, 0.55, 0.9);
+      config->p_max = uniformReal(random_, 0.9, 0.99);
+      config->p_occ = uniformReal(random_, 0.55, 0.85);
+    }
+    small_.reconfigure(small);
+    model_.reconfigure(small);
+    large_.reconfigure(large);
   }
 
   void verifySmall() {
