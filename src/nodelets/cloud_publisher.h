@@ -25,6 +25,7 @@ class CloudPublisher {
   void offer(std::shared_ptr<const Snapshot> snapshot, const VoxelBox& update_box);
   /// Publishes empty clouds: the map was forgotten.
   void clear();
+  void setRate(double rate) { thread_.setRate(rate); }
 
  private:
   void onSubscriber();

@@ -34,11 +34,12 @@ double physicalMemoryBytes() {
 }  // namespace
 
 void MappingNodelet::onInit() {
+  MapperConfig mapper_config;
   try {
-    configureFromParameters();
+    configureFromParameters(&mapper_config);
     handle_ = std::make_shared<MapHandle>(getName());
     MapObserver* const observer = this;
-    mapping_ = std::make_unique<MappingThread>(mapper_config_, node_config_, handle_, observer);
+    mapping_ = std::make_unique<MappingThread>(mapper_config, node_config_, handle_, observer);
   } catch (const std::exception& error) {
     NODELET_FATAL("%s", error.what());
     throw;
@@ -46,6 +47,9 @@ void MappingNodelet::onInit() {
   logStart(mapping_->mapper());
   inputs_ = std::make_unique<InputSubscriber>(getNodeHandle(), node_config_, mapping_.get());
   advertise();
+  tuning_ = std::make_unique<TuningServer>(
+      getMTPrivateNodeHandle(), getName(), mapper_config, node_config_,
+      [this](const MapperConfig& map, const NodeConfig& node) { return retune(map, node); });
   MapRegistry::add(handle_);
   mapping_->start();
 }
@@ -57,26 +61,34 @@ MappingNodelet::~MappingNodelet() {
   mapping_->stop();
   diagnostics_timer_.stop();
   for (ros::ServiceServer& service : services_) service.shutdown();
+  tuning_.reset();
 }
 
-void MappingNodelet::configureFromParameters() {
+void MappingNodelet::configureFromParameters(MapperConfig* mapper_config) {
   const ParameterMap values = parameterMapFromRos(getPrivateNodeHandle());
-  for (const std::string& name : configure(values, &mapper_config_, &node_config_)) {
+  for (const std::string& name : configure(values, mapper_config, &node_config_)) {
     if (isForeignParameter(name)) continue;
     NODELET_WARN("parameter %s is unknown and has no effect%s", name.c_str(),
                  hintForUnknown(name).c_str());
   }
 }
 
+bool MappingNodelet::retune(const MapperConfig& map, const NodeConfig& node) {
+  if (!mapping_->reconfigure(map, node)) return false;
+  clouds_->setRate(node.publish_rate);
+  vehicle_->setRate(node.publish_rate);
+  return true;
+}
+
 void MappingNodelet::logStart(const Mapper& mapper) {
+  const MapperConfig& config = mapper.config();
   const VoxelIndex size = mapper.grid().window().size();
   const double memory = static_cast<double>(mapper.grid().worstCaseMemoryBytes());
   NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, about %.0f MB when all is seen",
-               mapper_config_.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
+               config.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
   NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels",
-               mapper_config_.inflation_radius,
-               mapper_config_.inflation_radius / mapper_config_.resolution,
-               mapper_config_.structuringElement().reach());
+               config.inflation_radius, config.inflation_radius / config.resolution,
+               config.structuringElement().reach());
   NODELET_INFO("a voxel is occupied after %d hits, cleared after at most %d misses",
                mapper.logOdds().hitsToOccupy(), mapper.logOdds().missesToClear());
   if (memory > physicalMemoryBytes()) {
@@ -168,10 +180,7 @@ void MappingNodelet::onUpdate(const MapUpdate& update) {
   publishHandle(snapshot);
   statistics_publisher_.publish(boost::make_shared<Statistics>(toStatistics(update, frame)));
 
-  update_box_ =
-      VoxelLattice::boxAround(snapshot.lattice().indexOf(update.pose.vehicle_W),
-                              snapshot.lattice().sizeOf(mapper_config_.localUpdateRange()))
-          .intersection(snapshot.window());
+  update_box_ = update.report.update_box;
   clouds_->offer(update.snapshot, update_box_);
   changes_->offer(update.snapshot);
   vehicle_->add(toPose(update.T_W_B, toHeader(update.pose.stamp_ns, frame)));

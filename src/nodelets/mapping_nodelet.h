@@ -22,6 +22,7 @@
 #include "mapping_diagnostics.h"
 #include "mapping_thread.h"
 #include "status_publisher.h"
+#include "tuning_server.h"
 #include "vehicle_publisher.h"
 
 namespace fiimap {
@@ -37,7 +38,9 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
  private:
   /// \throws std::invalid_argument on a bad configuration, so that loading fails.
   void onInit() override;
-  void configureFromParameters();
+  void configureFromParameters(MapperConfig* mapper_config);
+  /// Puts tuned parameters into effect. \return false when the mapping thread is stopping.
+  bool retune(const MapperConfig& map, const NodeConfig& node);
   void logStart(const Mapper& mapper);
   void advertise();
 
@@ -54,8 +57,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   void onDrop(const Drop& drop) override;
   void onWarning(const std::string& text) override;
 
-  MapperConfig mapper_config_;
-  NodeConfig node_config_;
+  NodeConfig node_config_;  // as at the start
   std::shared_ptr<MapHandle> handle_;
   VoxelBox update_box_;  // of the newest scan; of the mapping thread alone
   // When a drop was warned of, by reason and sensor; of the mapping thread alone.
@@ -69,6 +71,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   std::unique_ptr<StatusPublisher> status_;
   std::unique_ptr<MappingThread> mapping_;
   std::unique_ptr<InputSubscriber> inputs_;
+  std::unique_ptr<TuningServer> tuning_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer diagnostics_timer_;

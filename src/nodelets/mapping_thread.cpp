@@ -75,6 +75,13 @@ bool MappingThread::edit(std::function<void(Mapper*)> function) {
   });
 }
 
+bool MappingThread::reconfigure(const MapperConfig& map, const NodeConfig& node) {
+  return edit([&](Mapper* mapper) {
+    mapper->reconfigure(map);
+    synchronizer_.reconfigure(node);
+  });
+}
+
 bool MappingThread::doBetweenScans(std::function<void()> work) {
   auto done = std::make_shared<std::promise<void>>();
   std::future<void> finished = done->get_future();

@@ -47,7 +47,7 @@ class MapObserver {
 };
 
 /// Owns the Mapper and the one thread that works with it. Its public methods may be called from any
-/// thread; they only enqueue, except reset() and edit().
+/// thread; they only enqueue, except reset(), edit() and reconfigure().
 class MappingThread : private ScanListener {
  public:
   /// \param handle where readers get the snapshots; \param observer must outlive this object.
@@ -76,6 +76,9 @@ class MappingThread : private ScanListener {
   /// get the map that it left. \return false when the thread is stopping. Rethrows what the
   /// function throws, whose map they do not get before the next scan.
   bool edit(std::function<void(Mapper*)> function);
+  /// Goes on with another configuration: edit() with Mapper::reconfigure(), and the same for what
+  /// brings scans and poses together. \param node differs in what is `tunable` only.
+  bool reconfigure(const MapperConfig& map, const NodeConfig& node);
 
   /// Copy of the counters as of the last step.
   ScanCounters counters() const;

@@ -5,10 +5,7 @@
 namespace fiimap {
 
 PublishingThread::PublishingThread(double rate, std::function<void()> publish)
-    : period_(
-          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))),
-      publish_(std::move(publish)),
-      thread_([this] { run(); }) {}
+    : period_(periodOf(rate)), publish_(std::move(publish)), thread_([this] { run(); }) {}
 
 void PublishingThread::wake() {
   {
@@ -16,6 +13,18 @@ void PublishingThread::wake() {
     woken_ = true;
   }
   changed_.notify_all();
+}
+
+void PublishingThread::setRate(double rate) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    period_ = periodOf(rate);
+  }
+  changed_.notify_all();
+}
+
+PublishingThread::Clock::duration PublishingThread::periodOf(double rate) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate));
 }
 
 void PublishingThread::stop() {
@@ -33,11 +42,14 @@ void PublishingThread::run() {
     changed_.wait(lock, [this] { return woken_ || stopping_; });
     if (stopping_) return;
     woken_ = false;
-    const Clock::time_point next = Clock::now() + period_;
+    const Clock::time_point start = Clock::now();
     lock.unlock();
     publish_();
     lock.lock();
-    changed_.wait_until(lock, next, [this] { return stopping_; });
+    // The period may change while it passes.
+    while (!stopping_ && Clock::now() < start + period_) {
+      changed_.wait_until(lock, start + period_);
+    }
   }
 }
 

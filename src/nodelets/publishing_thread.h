@@ -17,12 +17,14 @@ class PublishingThread {
   ~PublishingThread() { stop(); }
 
   void wake();
+  void setRate(double rate);
   /// The function is not running any more when this returns, nor called again.
   void stop();
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  static Clock::duration periodOf(double rate);
   void run();
 
   Clock::duration period_;

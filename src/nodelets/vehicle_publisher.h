@@ -23,6 +23,7 @@ class VehiclePublisher {
   void add(const geometry_msgs::PoseStamped& pose);
   /// Forgets the path and takes the marker away.
   void clear();
+  void setRate(double rate) { thread_.setRate(rate); }
 
  private:
   void onSubscriber();

@@ -37,10 +37,10 @@ std::vector<Parameter> poseParameters(NodeConfig* c) {
 
 std::vector<Parameter> queueAndOutputParameters(NodeConfig* c) {
   return {
-      numberParameter("max_pose_gap", &c->max_pose_gap, kMinSeconds, kMaxSeconds, "s",
-                      "largest time between the two poses around a scan"),
-      numberParameter("max_pose_wait", &c->max_pose_wait, 0.0, kMaxSeconds, "s",
-                      "how long a scan waits for its pose"),
+      tunable(numberParameter("max_pose_gap", &c->max_pose_gap, kMinSeconds, kMaxSeconds, "s",
+                              "largest time between the two poses around a scan")),
+      tunable(numberParameter("max_pose_wait", &c->max_pose_wait, 0.0, kMaxSeconds, "s",
+                              "how long a scan waits for its pose")),
       numberParameter("pose_history", &c->pose_history, kMinSeconds, kMaxSeconds, "s",
                       "how long poses and transforms are kept"),
       integerParameter("scan_queue_size", &c->scan_queue_size, 1, kMaxQueue, "scans",
@@ -48,8 +48,8 @@ std::vector<Parameter> queueAndOutputParameters(NodeConfig* c) {
       integerParameter("ready_queue_size", &c->ready_queue_size, 1, kMaxQueue, "scans",
                        "how many scans with pose may wait for the map; the newest win"),
 
-      numberParameter("publish_rate", &c->publish_rate, kMinSeconds, kMaxRate, "Hz",
-                      "clouds and changes are published at most this often"),
+      tunable(numberParameter("publish_rate", &c->publish_rate, kMinSeconds, kMaxRate, "Hz",
+                              "clouds and changes are published at most this often")),
       numberParameter("keyframe_period", &c->keyframe_period, kMinKeyframePeriod, kMaxSeconds, "s",
                       "time between whole maps on ~changes"),
       textParameter("save_directory", &c->save_directory,
@@ -97,9 +97,6 @@ std::vector<std::string> configureSensors(const ParameterMap& values, MapperConf
                     [&space](const SensorConfig& sensor) { return sensor.name == space; });
     if (!is_sensor) name = space;
     if (unknown.empty() || unknown.back() != name) unknown.push_back(name);
-  }
-  for (std::size_t i = 0; i < node->sensors.size(); ++i) {
-    mapper->sensors[i].validate(node->sensors[i].prefix());
   }
   return unknown;
 }
@@ -177,9 +174,17 @@ std::vector<std::string> configure(const ParameterMap& values, MapperConfig* map
   requireFreeNames(node->sensors, parameters);
   shareAmongSensors(mapper, node);
   for (std::string& name : configureSensors(of_sensors, mapper, node)) unknown.push_back(name);
-  mapper->validate();
-  node->validate();
+  validate(*mapper, *node);
   return unknown;
+}
+
+void validate(const MapperConfig& mapper, const NodeConfig& node) {
+  // First, because they name the sensor.
+  for (std::size_t i = 0; i < node.sensors.size(); ++i) {
+    mapper.sensors[i].validate(node.sensors[i].prefix());
+  }
+  mapper.validate();
+  node.validate();
 }
 
 std::string hintForUnknown(const std::string& name) {

@@ -55,6 +55,11 @@ PoseResolver::PoseResolver(const NodeConfig& config)
       history_(config.pose_history, config.max_pose_gap),
       tree_(config.pose_history) {}
 
+void PoseResolver::reconfigure(const NodeConfig& config) {
+  config_ = config;
+  history_.setMaxGap(config.max_pose_gap);
+}
+
 void PoseResolver::add(const nav_msgs::Odometry& odometry) { add(toTransform(odometry)); }
 
 void PoseResolver::add(const geometry_msgs::PoseStamped& pose) { add(toTransform(pose)); }

@@ -23,6 +23,12 @@ ScanSynchronizer::ScanSynchronizer(const NodeConfig& config, ScanListener* liste
   for (std::size_t i = 0; i < count; ++i) sensors_.emplace_back(config, i, &poses_, listener);
 }
 
+void ScanSynchronizer::reconfigure(const NodeConfig& config) {
+  poses_.reconfigure(config);
+  for (SensorInput& sensor : sensors_) sensor.reconfigure(config);
+  emitReadyScans();
+}
+
 void ScanSynchronizer::add(const PoseMessage& pose) {
   const std_msgs::Header& header = headerOf(pose);
   // Poses of another frame are refused, so they must not tell the time either.

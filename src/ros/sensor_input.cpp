@@ -45,6 +45,17 @@ SensorInput::SensorInput(const NodeConfig& config, std::size_t index, const Pose
       poses_(poses),
       listener_(listener) {}
 
+void SensorInput::reconfigure(const NodeConfig& config) {
+  const double time_offset = config_.time_offset;
+  config_ = config.allSensors().at(index_);
+  max_pose_wait_ = config.max_pose_wait;
+  if (config_.time_offset == time_offset) return;
+  // Stamps of the old offset say nothing of the order of those to come.
+  dropDoubtful();
+  guard_.clear();
+  newest_ = ros::Time();
+}
+
 void SensorInput::add(const sensor_msgs::CameraInfoConstPtr& info) {
   camera_info_ = info;
   warn(camera_check_.look(*info));

@@ -108,8 +108,8 @@ std::vector<Parameter> parametersOfSensor(SensorConfig* c, const std::string& pr
                       "x y z of the sensor in the body frame"),
       vectorParameter(prefix + "extrinsic_rotation", &c->extrinsic_rotation, "",
                       "quaternion x y z w that rotates from sensor to body frame"),
-      numberParameter(prefix + "time_offset", &c->time_offset, -kMaxSeconds, kMaxSeconds, "s",
-                      "added to the stamps of the sensor"),
+      tunable(numberParameter(prefix + "time_offset", &c->time_offset, -kMaxSeconds, kMaxSeconds,
+                              "s", "added to the stamps of the sensor")),
   };
 }
 

@@ -20,26 +20,6 @@ constexpr std::chrono::milliseconds kPoll{1};  // of settle()
 constexpr double kTimePerPoll = 0.01;          // s of simulated time
 constexpr std::chrono::seconds kPatience{60};
 
-MapperConfig mapperConfig() {
-  MapperConfig config;
-  config.map_size_x = config.map_size_y = 10.0;
-  config.map_size_z = 6.0;
-  config.pixel_step = 1;
-  config.border_margin = 0;
-  return config;
-}
-
-NodeConfig nodeConfig(RigInputs inputs) {
-  NodeConfig config;
-  config.max_pose_wait = 0.05;
-  if (inputs == RigInputs::kPoints) {
-    config.sensor = SensorKind::kPoints;
-    config.extrinsics = ExtrinsicsSource::kParameter;
-  }
-  if (inputs == RigInputs::kTf) config.pose_source = PoseSource::kTf;
-  return config;
-}
-
 /// The camera looks along the body's x axis.
 geometry_msgs::TransformStamped cameraOnBody() {
   geometry_msgs::TransformStamped transform;
@@ -101,6 +81,26 @@ sensor_msgs::PointCloud2 wallCloud() {
 }
 
 }  // namespace
+
+MapperConfig FaultRig::mapperConfig() {
+  MapperConfig config;
+  config.map_size_x = config.map_size_y = 10.0;
+  config.map_size_z = 6.0;
+  config.pixel_step = 1;
+  config.border_margin = 0;
+  return config;
+}
+
+NodeConfig FaultRig::nodeConfig(RigInputs inputs) {
+  NodeConfig config;
+  config.max_pose_wait = 0.05;
+  if (inputs == RigInputs::kPoints) {
+    config.sensor = SensorKind::kPoints;
+    config.extrinsics = ExtrinsicsSource::kParameter;
+  }
+  if (inputs == RigInputs::kTf) config.pose_source = PoseSource::kTf;
+  return config;
+}
 
 FaultRig::FaultRig(RigInputs inputs, double clock) : inputs_(inputs), clock_(clock) {
   ros::Time::init();

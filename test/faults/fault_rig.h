@@ -56,6 +56,10 @@ class FaultRig : private MapObserver {
   FaultRig(RigInputs inputs, double clock);
   ~FaultRig() override;
 
+  /// What the map and its inputs are configured to at the start.
+  static MapperConfig mapperConfig();
+  static NodeConfig nodeConfig(RigInputs inputs);
+
   /// A good frame of the next moment.
   Frame next();
   void send(Frame frame);

@@ -51,6 +51,44 @@ TEST(MapEdit, WhatAnEditThrowsReachesTheCallerAndMappingGoesOn) {
   EXPECT_NE(rig.state().snapshot, before);
 }
 
+TEST(Reconfigure, ChangesTheMapAndWhatBringsScansAndPosesTogether) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  rig.fly(3);
+  // 0.2 s between the poses around a scan are too much.
+  const auto flyOverAGap = [&rig] {
+    Frame frame = rig.next();
+    frame.poses = {rig.poseAt(rig.now() + 0.1)};
+    rig.setNow(rig.now() + 0.1);
+    rig.send(frame);
+    rig.settle();
+    return rig.state().totals.counters.integrated;
+  };
+  const std::uint64_t before = rig.state().totals.counters.integrated;
+  EXPECT_EQ(flyOverAGap(), before);
+
+  MapperConfig map = FaultRig::mapperConfig();
+  map.inflation_radius = 0.5;
+  NodeConfig node = FaultRig::nodeConfig(RigInputs::kDepth);
+  node.max_pose_gap = 0.3;
+  EXPECT_TRUE(rig.mapping().reconfigure(map, node));
+  EXPECT_EQ(rig.state().snapshot->info().inflation_radius, 0.5);
+  EXPECT_EQ(flyOverAGap(), before + 1);
+}
+
+TEST(Reconfigure, LeavesAllAsItWasWhenTheMapRefuses) {
+  FaultRig rig(RigInputs::kDepth, kClock);
+  rig.fly(3);
+  const std::shared_ptr<const Snapshot> before = rig.state().snapshot;
+  MapperConfig map = FaultRig::mapperConfig();
+  map.resolution *= 2.0;
+  NodeConfig node = FaultRig::nodeConfig(RigInputs::kDepth);
+  node.time_offset = 100.0;  // with which scans would have no pose
+  EXPECT_THROW(rig.mapping().reconfigure(map, node), std::invalid_argument);
+  EXPECT_EQ(rig.state().snapshot, before);
+  rig.fly(1);
+  EXPECT_NE(rig.state().snapshot, before);
+}
+
 TEST(MapEdit, IsRefusedWhenTheThreadStops) {
   FaultRig rig(RigInputs::kDepth, kClock);
   rig.mapping().stop();

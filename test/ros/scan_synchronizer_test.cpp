@@ -113,6 +113,63 @@ TEST_F(ScanSynchronizerTest, AddsTheTimeOffsetToScans) {
   EXPECT_NEAR(diary_.scans[0].pose.T_W_S.translation().x(), 0.25, 1e-6);
 }
 
+TEST_F(ScanSynchronizerTest, AnotherTimeOffsetHoldsForScansFromThenOnWhicheverWayItGoes) {
+  NodeConfig config = cloudConfig();
+  addPoses(0.0, 3.0);
+  addCloud(1.5);
+  std::vector<double> expected = {1.5};
+  for (const double offset : {-1.3, 0.2, 0.0}) {
+    config.time_offset = offset;
+    synchronizer_->reconfigure(config);
+    const double stamp = 1.6 + 0.1 * static_cast<double>(expected.size());
+    addCloud(stamp);
+    expected.push_back(stamp + offset);
+  }
+  EXPECT_EQ(diary_.events, (Events{"scan", "scan", "scan", "scan"})) << "no time jumped";
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(diary_.scans[i].pose.T_W_S.translation().x(), expected[i], 1e-6);
+  }
+}
+
+TEST_F(ScanSynchronizerTest, TheSameTimeOffsetAgainForgetsNoStamp) {
+  addPoses(0.0, 1.0);
+  addCloud(0.5);
+  synchronizer_->reconfigure(cloudConfig());
+  addCloud(0.4);
+  EXPECT_EQ(diary_.events, (Events{"scan", "stale_stamp"}));
+}
+
+TEST_F(ScanSynchronizerTest, AScanThatWaitsKeepsItsStampWhenTheTimeOffsetChanges) {
+  addPoses(0.0, 0.5);
+  addCloud(0.7);
+  NodeConfig config = cloudConfig();
+  config.time_offset = -0.5;
+  synchronizer_->reconfigure(config);
+  addCloud(0.8);
+  EXPECT_TRUE(diary_.events.empty()) << "the scan before it waits for its pose";
+  addPoses(0.5, 1.0);
+  ASSERT_EQ(diary_.events, (Events{"scan", "scan"}));
+  EXPECT_NEAR(diary_.scans[0].pose.T_W_S.translation().x(), 0.7, 1e-6);
+  EXPECT_NEAR(diary_.scans[1].pose.T_W_S.translation().x(), 0.3, 1e-6);
+}
+
+TEST_F(ScanSynchronizerTest, AnotherGapOrWaitHoldsForScansThatWait) {
+  NodeConfig config = cloudConfig();
+  config.max_pose_gap = config.max_pose_wait = 1.0;
+  useConfig(config);
+  addPose(0.0);
+  addCloud(0.1);
+  config.max_pose_gap = 0.3;
+  synchronizer_->reconfigure(config);
+  addPose(0.5);
+  EXPECT_EQ(diary_.events, Events{"pose_gap"});
+  addCloud(0.6);
+  config.max_pose_wait = 0.2;
+  synchronizer_->reconfigure(config);
+  addCloud(0.9);
+  EXPECT_EQ(diary_.events, (Events{"pose_gap", "pose_timeout"}));
+}
+
 TEST_F(ScanSynchronizerTest, RefusesStampsThatAreZeroOrNotNewer) {
   addPoses(0.0, 0.5);
   const auto cloud = boost::make_shared<const sensor_msgs::PointCloud2>();

@@ -81,6 +81,10 @@ std::vector<Parameter> sensorParameters(MapperConfig* mapper, NodeConfig* node);
 std::vector<std::string> configure(const ParameterMap& values, MapperConfig* mapper,
                                    NodeConfig* node);
 
+/// Of a map and its node that belong together.
+/// \throws std::invalid_argument that names the parameter, its value and what is allowed.
+void validate(const MapperConfig& mapper, const NodeConfig& node);
+
 /// What to add for a user when a name that configure() returned lies in a sensor's namespace: which
 /// parameters a sensor may have of its own. Empty for other names.
 std::string hintForUnknown(const std::string& name);

@@ -39,6 +39,7 @@ class PoseHistory {
   /// \throws InputError (kZeroStamp, kBadPose); the pose is left out then.
   void add(const geometry_msgs::TransformStamped& pose);
   void clear();
+  void setMaxGap(double max_gap) { max_gap_ = max_gap; }
 
   bool empty() const { return newest().isZero(); }
   /// Stamp of the newest pose; zero when there is none.

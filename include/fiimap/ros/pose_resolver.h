@@ -40,6 +40,8 @@ class PoseResolver {
  public:
   /// \param config validated.
   explicit PoseResolver(const NodeConfig& config);
+  /// Goes on with another max_pose_gap; \param config differs in what is `tunable` only.
+  void reconfigure(const NodeConfig& config);
 
   void add(const nav_msgs::Odometry& odometry);
   void add(const geometry_msgs::PoseStamped& pose);

@@ -31,6 +31,10 @@ class ScanSynchronizer {
   /// \param config validated; \param listener must outlive the synchronizer.
   ScanSynchronizer(const NodeConfig& config, ScanListener* listener);
 
+  /// Goes on with other time offsets, max_pose_gap and max_pose_wait.
+  /// \param config validated; differs in what is `tunable` only.
+  void reconfigure(const NodeConfig& config);
+
   void add(const PoseMessage& pose);
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
   /// \param sensor index in NodeConfig::sensors.

@@ -35,6 +35,10 @@ class SensorInput {
   SensorInput(const NodeConfig& config, std::size_t index, const PoseResolver* poses,
               ScanListener* listener);
 
+  /// Goes on with another time_offset, which does not touch scans that wait, and max_pose_wait.
+  /// \param config differs in what is `tunable` only.
+  void reconfigure(const NodeConfig& config);
+
   const SensorConfig& config() const { return config_; }
   /// Newest stamp that was not dropped at once; zero when there is none.
   const ros::Time& newest() const { return newest_; }
