@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Compares config/ and the README's table of parameters with the code.
+"""Compares config/ and the README's tables of parameters with the code.
 
   check_parameter_docs.py PROGRAM [FILE]
 
 `PROGRAM parameters` prints one line per parameter, tab-separated: name, default, unit, allowed,
-meaning. FILE in config/ describes all of them; without it, default.yaml and the README do, and other
+meaning, and "tunable" where that is so. FILE in config/ describes all of them; without it, default.yaml and the README do, and other
 files hold differences. Exits with 1 and one line per difference.
 """
 import pathlib
@@ -17,10 +17,14 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OF_OTHER_NODES = {
     'demo_planner.yaml', 'demo_simulator.yaml', 'ego_planner.yaml', 'planner.yaml', 'simulator.yaml'}
+TUNING_HEADING = '### Tuning while flying\n'
+
 
 class Parameter:
     def __init__(self, line):
-        self.name, self.default, self.unit, self.allowed, self.meaning = line.split('\t')
+        (self.name, self.default, self.unit, self.allowed, self.meaning,
+         *marks) = line.split('\t')
+        self.tunable = 'tunable' in marks
 
     def must_mention(self):
         """What a description of the parameter has to contain: range with unit, or choices."""
@@ -87,6 +91,22 @@ def readme_entries(path):
                 yield name, yaml.safe_load(default), line
 
 
+def compare_tunable(path, parameters):
+    """Differences of the README's list of what may change while the node runs."""
+    text = path.read_text()
+    section = text[text.index(TUNING_HEADING) + len(TUNING_HEADING):]
+    lines = [line for line in section[:section.index('\n#')].splitlines() if line[:1] == '|']
+    listed = re.findall(r'`([^`]*)`', '\n'.join(lines))
+    for name in {name for name in listed if listed.count(name) > 1}:
+        yield f'{path.name}: {name} stands twice among what may change'
+    for name, parameter in parameters.items():
+        if parameter.tunable != (name in listed):
+            yield (f'{path.name}: {name} may change while the node runs and is not listed there'
+                   if parameter.tunable else f'{path.name}: {name} may not change')
+    for name in set(listed) - set(parameters):
+        yield f'{path.name}: {name}, which may change, is not a parameter'
+
+
 def compare_all(where, entries, parameters):
     """Differences of a place that documents every parameter."""
     seen = set()
@@ -135,6 +155,7 @@ def main():
     problems = list(compare_all(default_file.name, yaml_entries(default_file), parameters))
     if default_file.name not in OF_OTHER_NODES:
         problems += compare_all('README.md', readme_entries(ROOT / 'README.md'), parameters)
+        problems += compare_tunable(ROOT / 'README.md', parameters)
         for path in sorted((ROOT / 'config').glob('*.yaml')):
             if path != default_file and path.name not in OF_OTHER_NODES:
                 problems += compare_differences(path, parameters)

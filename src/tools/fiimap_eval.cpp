@@ -36,7 +36,7 @@ constexpr char kUsage[] =
     "  fiimap_eval bandwidth BAG [options] tells what the clouds and ~changes take on a link\n"
     "  fiimap_eval report BAG... -o DIR    all of these, as a page to look at; --help tells more\n"
     "  fiimap_eval parameters              lists the parameters of map and node: name, default,\n"
-    "                                      unit, allowed values, meaning\n\n"
+    "                                      unit, allowed values, meaning, whether tunable\n\n"
     "Topics that are not found by type are set like parameters: depth_topic, camera_info_topic, "
     "points_topic, pose_topic.\n\n";
 

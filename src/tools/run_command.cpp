@@ -80,7 +80,7 @@ void save(const Snapshot& map, const std::string& prefix) {
 void print(const std::vector<Parameter>& parameters) {
   for (const Parameter& p : parameters) {
     std::cout << p.name << '\t' << p.get() << '\t' << p.unit << '\t' << p.allowed << '\t'
-              << p.meaning << '\n';
+              << p.meaning << '\t' << (p.tunable ? "tunable" : "") << '\n';
   }
 }
 

@@ -18,8 +18,8 @@ struct RunOptions {
 /// could be integrated.
 int run(const RunOptions& options);
 
-/// `fiimap_eval parameters`: prints name, default, unit, allowed values and meaning of every
-/// parameter of map and node, separated by tabs.
+/// `fiimap_eval parameters`: prints name, default, unit, allowed values, meaning and, of what may
+/// change while the node runs, "tunable", of every parameter of map and node, separated by tabs.
 void printParameters();
 
 }  // namespace fiimap

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 
 #include "fault_catalogue.h"
 #include "fiimap/ros/node_config.h"
+#include "fiimap/ros/tuning.h"
 
 namespace fiimap {
 namespace {
@@ -118,6 +120,56 @@ Settings valuesOfASensor() {
   return settings;
 }
 
+// Tuning: what may change while the node runs, and what may not.
+
+Settings onlyTunable(const Settings& settings, bool tunable = true) {
+  Settings kept;
+  for (const Parameter& parameter : allParameters()) {
+    if (parameter.tunable != tunable) continue;
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(kept),
+                 [&](const Setting& setting) { return setting.front().first == parameter.name; });
+  }
+  return kept;
+}
+
+Settings oneForEach(const std::string& value) {
+  Settings settings;
+  for (const Parameter& parameter : allParameters()) settings.push_back({{parameter.name, value}});
+  return settings;
+}
+
+Settings outOfRange() {
+  return onlyTunable(forAllRanges([](const Range& r) {
+    return std::vector<double>{r.min - 1e-6 * std::max(1.0, std::abs(r.min)),
+                               r.max + 1e-6 * std::max(1.0, std::abs(r.max)), 1e300};
+  }));
+}
+
+Settings noNumbersToTune() {
+  Settings settings = onlyTunable(noNumbers());
+  for (const Setting& fraction : onlyTunable(forAll("a whole number", {"1.5"}))) {
+    settings.push_back(fraction);
+  }
+  return settings;
+}
+
+Settings noChoicesToTune() {
+  Settings settings = onlyTunable(noChoices());
+  for (const Setting& flag : onlyTunable(forAll("true or false", {"perhaps", ""}))) {
+    settings.push_back(flag);
+  }
+  return settings;
+}
+
+/// Of a map of several sensors.
+Settings ofAllSensors() {
+  Settings settings;
+  for (const std::string name : {"max_depth", "pixel_step", "max_ray_length", "time_offset"}) {
+    settings.push_back({{name, "1"}});
+  }
+  return settings;
+}
+
 /// Settings by the id of their row. All of a row must be refused, but for those named as accepted.
 const std::map<std::string, Settings>& settings() {
   static const std::map<std::string, Settings> all = {
@@ -158,6 +210,18 @@ const std::map<std::string, Settings>& settings() {
        {{{"front/max_dpeth", "1"}, {"sensors", "front"}},
         {{"front/resolution", "1"}, {"sensors", "front"}}}},
       {"parameter_unknown", {{{"resolutoin", "0.1"}}, {{"", "1"}}}},
+      {"tuning_out_of_range", outOfRange()},
+      {"tuning_no_number", noNumbersToTune()},
+      {"tuning_choice", noChoicesToTune()},
+      {"tuning_order", wrongOrders()},
+      {"tuning_beyond_window", {{{"slide_distance", "3.1"}}, {{"inflation_radius", "6.5"}}}},
+      {"tuning_fixed", onlyTunable(oneForEach("1"), false)},
+      {"tuning_of_all_sensors", ofAllSensors()},
+      {"tuning_of_sensor",
+       {{{"front/max_depth", "1001"}},
+        {{"front/min_depth", "4"}, {"front/max_depth", "4"}},
+        {{"front/time_offset", "3601"}}}},
+      {"tuning_unknown", {{{"resolutoin", "0.1"}}, {{"front/max_dpeth", "1"}}, {{"", "1"}}}},
   };
   return all;
 }
@@ -174,11 +238,45 @@ std::string refusal(const Setting& setting, std::vector<std::string>* unknown) {
   return "";
 }
 
+bool isOfSeveralSensors(const std::string& id) {
+  return id == "tuning_of_all_sensors" || id == "tuning_of_sensor";
+}
+
+/// Values of all parameters as text.
+std::vector<std::string> valuesOf(MapperConfig mapper, NodeConfig node) {
+  std::vector<std::string> values;
+  for (const auto& list :
+       {mapperParameters(&mapper), nodeParameters(&node), sensorParameters(&mapper, &node)}) {
+    for (const Parameter& parameter : list) values.push_back(parameter.get());
+  }
+  return values;
+}
+
+/// What a user would read who tunes, beside something else that is allowed.
+std::string refusalOfTuning(Setting setting, bool several_sensors) {
+  MapperConfig mapper;
+  NodeConfig node;
+  const ParameterMap sensors = {{"sensors", "front lidar"}};
+  configure(several_sensors ? sensors : ParameterMap(), &mapper, &node);
+  const std::vector<std::string> before = valuesOf(mapper, node);
+  setting.push_back({"publish_rate", "3"});
+  try {
+    tune(ParameterMap(setting.begin(), setting.end()), &mapper, &node);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(valuesOf(mapper, node), before);
+    return error.what();
+  }
+  return "";
+}
+
 class ParameterFaultTest : public testing::TestWithParam<Fault> {
  protected:
   static void expectRefused(const Setting& setting) {
     std::vector<std::string> unknown;
-    const std::string message = refusal(setting, &unknown);
+    const std::string& id = GetParam().id;
+    const bool is_tuning = id.find("tuning_") == 0;
+    const std::string message =
+        is_tuning ? refusalOfTuning(setting, isOfSeveralSensors(id)) : refusal(setting, &unknown);
     const auto& [name, value] = setting.front();
     // The window's size is named as one.
     const std::string named = name.substr(0, name.find_last_of('_'));

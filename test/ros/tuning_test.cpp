@@ -71,9 +71,9 @@ TEST(TuningTest, SetsAllOrNone) {
 TEST(TuningTest, SaysWhatCannotChangeAndWhatIsUnknown) {
   Configuration configuration;
   for (const std::string name : {"resolution", "map_frame", "scan_queue_size", "sensor"}) {
-    EXPECT_EQ(configuration.refusal({{name, "1"}}),
-              "parameter " + name +
-                  " cannot change while the node runs: set it and start the node anew");
+    EXPECT_EQ(
+        configuration.refusal({{name, "1"}}),
+        "parameter " + name + " cannot change while the node runs: set it and start the node anew");
   }
   EXPECT_EQ(configuration.refusal({{"resolutoin", "1"}}), "parameter resolutoin is unknown");
 }
@@ -147,8 +147,9 @@ TEST(TuningMessagesTest, DescribeRangesTypesAndChoices) {
     }
   }
   const auto& groups = description.groups[0].parameters;
-  const auto shape = std::find_if(groups.begin(), groups.end(),
-                                  [](const auto& entry) { return entry.name == "inflation_shape"; });
+  const auto shape = std::find_if(groups.begin(), groups.end(), [](const auto& entry) {
+    return entry.name == "inflation_shape";
+  });
   ASSERT_NE(shape, groups.end());
   EXPECT_EQ(shape->edit_method,
             "{'enum_description': 'ball, cube or diamond', 'enum': [{'name': 'ball', 'type': "

@@ -7,6 +7,8 @@ import threading
 import rospy
 import rostest
 import yaml
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 from sensor_msgs.msg import PointCloud2
 from xmlrpc.client import Binary
 
@@ -75,6 +77,7 @@ class LiveFaultsTest(VehicleTest):
         self.row('live_clock_stops')
         self.fly_well(10, clock=nothing)
         self.check_saving(maps)
+        self.check_tuning()
         self.check_stopped_subscriber()
         self.row('live_terminate_node')
         self.node.send(signal.SIGTERM)
@@ -90,6 +93,19 @@ class LiveFaultsTest(VehicleTest):
             self.assertEqual(list(maps.iterdir()), [])
             self.fly_well()
         self.assertFalse((maps.parent / 'outside.bt').exists())
+
+    def check_tuning(self):
+        self.row('live_tuning_refused')
+        tune = rospy.ServiceProxy('/map/set_parameters', Reconfigure)
+        for name, value in (('inflation_radius', 1000.0), ('p_occ', 0.98), ('resolution', 0.2)):
+            asked = Config(doubles=[DoubleParameter('max_depth', 3.0), DoubleParameter(name, value)])
+            held = {entry.name: entry.value for entry in tune(asked).config.doubles}
+            self.assertEqual((held['inflation_radius'], held['p_occ'], held['max_depth']),
+                             (0.2, 0.8, 8.0))
+            self.assertFalse(rospy.has_param('/map/max_depth'))
+        self.assertEqual(rospy.get_param('/map/resolution'), PARAMETERS['resolution'])
+        self.assert_told('live_tuning_refused', self.node.output())
+        self.fly_well()
 
     def check_stopped_subscriber(self):
         self.row('live_stopped_subscriber')

@@ -2,6 +2,7 @@
 """The planner flies a vehicle through a scene, on the map of the mapping nodelet beside it."""
 import rospy
 import rostest
+from dynamic_reconfigure.client import Client
 from std_srvs.srv import Trigger
 
 from fiimap.msg import PlannerStatus
@@ -32,6 +33,7 @@ HALF_WAY = (8.0, 0.0, 1.2)  # far enough to be disturbed, and to fly on between 
 COLUMNS = [Box((x, y, 0.0), (x + 0.5, y + 0.5, 3.0)) for x, y in
            [(3.0, -0.3), (3.0, 1.6), (3.2, -2.4), (6.0, -1.4), (6.1, 0.7), (9.0, -0.2), (9.3, 1.7),
             (9.1, -2.0), (11.5, 0.8), (11.4, -1.3)]]
+MOST_CHANGES = 600  # of the map, in one flight
 FAR_WALL = Box((18.0, -6.0, 0.0), (18.5, 6.0, 3.0))
 
 
@@ -89,6 +91,25 @@ class PlannerFlightTest(ManagerTest):
         states = {status.state for status in self.vehicle.statuses[before:]}
         self.assertNotIn(PlannerStatus.BRAKING, states)
         self.assertNotIn(PlannerStatus.WAITING, states)
+        self.assert_safe()
+
+    def test_keeps_flying_while_the_map_is_tuned(self):
+        self.take_off()
+        client = Client('/map', timeout=30.0)
+        self.addCleanup(client.close)
+        self.vehicle.fly_to(*GOAL)
+        self.wait_for_flight()
+        changes = 0
+        while self.vehicle.status().state != PlannerStatus.GOAL_REACHED:
+            changes += 1
+            radius = RADIUS + 0.1 * (changes % 2)
+            values = client.update_configuration(
+                {'inflation_radius': radius, 'p_occ': 0.75, 'max_ray_length': 6.0 + changes % 3})
+            self.assertEqual(values['inflation_radius'], radius)
+            rospy.sleep(0.2)
+            self.assertLess(changes, MOST_CHANGES, self.vehicle.status())
+        self.assertGreater(changes, 5)
+        self.assertLess(self.vehicle.distance_to(*GOAL), 0.35)
         self.assert_safe()
 
     def test_brakes_when_the_map_is_unloaded_and_goes_on_with_a_new_one(self):
