@@ -9,11 +9,13 @@ import rostest
 from dynamic_reconfigure import find_reconfigure_services
 from dynamic_reconfigure.client import Client, DynamicReconfigureParameterException
 from geometry_msgs.msg import Point
+from rosgraph_msgs.msg import Log
 
 import make_bag_variants
 from fiimap.msg import MapInfo
 from fiimap.srv import GetBox, GetBoxResponse
-from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, wait_for
+from rostest_support import (
+    FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, topics_between, wait_for)
 
 FORM = ('points', 'odometry')
 RESOLUTION = 0.1
@@ -174,11 +176,16 @@ class TuningTest(MapTest):
 
     def test_dynparam_and_the_parameter_server(self):
         self.start_mapping()
+        logged = []
+        console = rospy.Subscriber('/rosout', Log, lambda message: logged.append(message.msg))
+        self.addCleanup(console.unregister)
+        wait_for(lambda: topics_between('/map', rospy.get_name()) >= {'/rosout'}, 'the console')
         set_by_user = self.start(program('dynamic_reconfigure', 'dynparam'), 'set', '/map',
                                  'inflation_radius', '0.4')
         self.assertEqual(set_by_user.wait(), 0, set_by_user.output())
         self.assertEqual(rospy.get_param('/map/inflation_radius'), 0.4)
-        self.assertIn("parameter inflation_radius = '0.4', was '0.2'", self.node.output())
+        wait_for(lambda: "parameter inflation_radius = '0.4', was '0.2'" in logged,
+                 lambda: f'what was changed: {logged}')
         several = self.start(
             program('dynamic_reconfigure', 'dynparam'), 'set', '/map',
             "{'pixel_step': 3, 'round_rays': False, 'infinite_depth': 'ignore', "
