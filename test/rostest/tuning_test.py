@@ -198,6 +198,14 @@ class TuningTest(MapTest):
         got = self.start(program('dynamic_reconfigure', 'dynparam'), 'get', '/map')
         self.assertEqual(got.wait(), 0, got.output())
         self.assertIn("'pixel_step': 3", got.output())
+        tuned = self.directory / 'tuned.yaml'
+        self.assertEqual(
+            self.start(program('dynamic_reconfigure', 'dynparam'), 'dump', '/map', tuned).wait(), 0)
+        self.map.update_configuration({'pixel_step': 1, 'inflation_radius': 0.1})
+        loading = self.start(program('dynamic_reconfigure', 'dynparam'), 'load', '/map', tuned)
+        self.assertEqual(loading.wait(), 0, loading.output())
+        self.assertEqual((rospy.get_param('/map/pixel_step'),
+                          rospy.get_param('/map/inflation_radius')), (3, 0.4))
         # A node that starts with what is there has what was tuned.
         self.assertEqual(self.node.interrupt(), 0, self.node.output())
         parameters = rospy.get_param('/map')

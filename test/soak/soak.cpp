@@ -2,8 +2,8 @@
 ///   fiimap_soak KILOMETRES [SEED]
 /// Every scan goes into a small map and into the model of the property tests, which says for every
 /// voxel what it must be; and into a large map, whose inflated layer is compared with brute force.
-/// Slides on all axes, noise, teleports, resets and changes of radius happen on the way. Fails on
-/// the first difference, and when resident memory grew.
+/// Slides on all axes, noise, teleports, resets and changes of parameters happen on the way. Fails
+/// on the first difference, and when resident memory grew.
 #include <unistd.h>
 
 #include <cstdio>
