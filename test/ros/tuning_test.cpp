@@ -95,8 +95,9 @@ TEST(TuningTest, EachOfSeveralSensorsHasItsOwn) {
 }
 
 TEST(TuningTest, SensorsTakeTheirParametersFromTheMap) {
+  const ParameterMap sensors = {{"sensors", "front lidar"}};
   const std::set<std::string> of_one = namesOf(Configuration().parameters());
-  std::set<std::string> of_two = namesOf(Configuration({{"sensors", "front lidar"}}).parameters());
+  std::set<std::string> of_two = namesOf(Configuration(sensors).parameters());
   for (const std::string& name : of_one) {
     const bool of_map = of_two.erase(name) == 1;
     const bool of_each = of_two.erase("front/" + name) + of_two.erase("lidar/" + name) == 2;
@@ -138,7 +139,8 @@ TEST(TuningMessagesTest, DescribeRangesTypesAndChoices) {
     EXPECT_EQ(entry.type == "str", max.at(entry.name).empty());
     EXPECT_FALSE(entry.description.empty());
     // Texts are chosen from a list, all of them.
-    if (entry.type == "str") EXPECT_NE(entry.edit_method.find("'enum': [{"), std::string::npos);
+    const bool is_chosen = entry.edit_method.find("'enum': [{") != std::string::npos;
+    EXPECT_TRUE(entry.type != "str" || is_chosen);
     // What is out of the described range is refused.
     if (!is_number) continue;
     for (const auto& [limit, step] : {std::pair(min, -1.0), std::pair(max, 1.0)}) {
