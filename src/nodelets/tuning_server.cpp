@@ -13,7 +13,7 @@
 namespace fiimap {
 namespace {
 
-constexpr int kQueue = 10;
+constexpr int kTuningQueue = 10;
 constexpr bool kLatch = true;
 
 /// Of the type that a user would write into a file.
@@ -49,9 +49,9 @@ void TuningServer::open(const SensorConfig& sensor) {
   endpoint->prefix = sensor.prefix();
   ros::NodeHandle node(node_, sensor.name);
   endpoint->descriptions = node.advertise<dynamic_reconfigure::ConfigDescription>(
-      "parameter_descriptions", kQueue, kLatch);
+      "parameter_descriptions", kTuningQueue, kLatch);
   endpoint->updates =
-      node.advertise<dynamic_reconfigure::Config>("parameter_updates", kQueue, kLatch);
+      node.advertise<dynamic_reconfigure::Config>("parameter_updates", kTuningQueue, kLatch);
   const std::vector<Parameter> parameters = parametersOf(*endpoint);
   endpoint->descriptions.publish(toDescription(parameters));
   endpoint->updates.publish(toConfig(parameters));

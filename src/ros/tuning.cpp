@@ -29,15 +29,15 @@ std::set<std::string> namesOfSensors() {
   return names;
 }
 
-bool isNameOf(const std::string& name, const std::vector<Parameter>& parameters) {
+bool isAmong(const std::string& name, const std::vector<Parameter>& parameters) {
   return std::any_of(parameters.begin(), parameters.end(),
                      [&name](const Parameter& parameter) { return parameter.name == name; });
 }
 
 [[noreturn]] void refuseUnknown(const std::string& name, MapperConfig* mapper, NodeConfig* node) {
-  const bool is_known = isNameOf(name, mapperParameters(mapper)) ||
-                        isNameOf(name, nodeParameters(node)) ||
-                        isNameOf(name, sensorParameters(mapper, node));
+  const bool is_known = isAmong(name, mapperParameters(mapper)) ||
+                        isAmong(name, nodeParameters(node)) ||
+                        isAmong(name, sensorParameters(mapper, node));
   if (!is_known) throw std::invalid_argument("parameter " + name + " is unknown");
   if (!node->sensors.empty() && namesOfSensors().count(name) != 0) {
     throw std::invalid_argument("parameter " + name + ": each sensor has its own: " +
