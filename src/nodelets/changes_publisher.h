@@ -25,6 +25,8 @@ class ChangesPublisher {
                    double keyframe_period);
   ~ChangesPublisher();
 
+  void setRate(double rate) { thread_.setRate(rate); }
+
   /// \param snapshot null: the map was forgotten.
   void offer(std::shared_ptr<const Snapshot> snapshot);
 

@@ -76,7 +76,9 @@ void MappingNodelet::configureFromParameters(MapperConfig* mapper_config) {
 bool MappingNodelet::retune(const MapperConfig& map, const NodeConfig& node) {
   if (!mapping_->reconfigure(map, node)) return false;
   clouds_->setRate(node.publish_rate);
+  changes_->setRate(node.publish_rate);
   vehicle_->setRate(node.publish_rate);
+  status_->setRate(node.publish_rate);
   return true;
 }
 

@@ -22,6 +22,8 @@ class StatusPublisher {
   StatusPublisher(ros::NodeHandle node, const std::string& map_frame, double rate);
   ~StatusPublisher();
 
+  void setRate(double rate) { thread_.setRate(rate); }
+
   void offer(const MapUpdate& update);
   /// Takes the markers away: the map was forgotten.
   void clear();
