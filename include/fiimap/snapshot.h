@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fiimap/sliding_grid.h"
@@ -17,6 +18,27 @@ enum class Occupancy : std::uint8_t { kUnknown, kFree, kOccupied, kOutside };
 
 /// The same for the inflated layer; a voxel that is inflated is not reported as unknown or free.
 enum class Inflation : std::uint8_t { kUnknown, kFree, kInflated, kOutside };
+
+/// A layer of the map: obstacles inflated, or as measured.
+enum class MapLayer { kInflated, kRaw };
+
+/// What a voxel is taken for about which the map says nothing.
+enum class Unseen { kObstacle, kFree };
+
+/// What counts as an obstacle: what is inflated (or occupied, of the raw layer) always, the rest by
+/// the caller's choice.
+struct ObstacleRules {
+  MapLayer layer;
+  Unseen unknown;
+  Unseen outside;  ///< of the window
+};
+
+/// Where a segment first meets an obstacle.
+struct RayHit {
+  VoxelIndex voxel;         ///< of the obstacle
+  Eigen::Vector3d point_W;  ///< where the segment enters it, metres, map frame
+  double distance;          ///< from the segment's start to there, m; 0: it starts in the obstacle
+};
 
 /// Heights beyond which queries see an obstacle whatever was measured, metres in the map frame.
 struct VirtualWalls {
@@ -59,6 +81,20 @@ class Snapshot {
   Occupancy occupancy(const Eigen::Vector3d& point_W) const;
   Inflation inflation(const VoxelIndex& v) const;
   Inflation inflation(const Eigen::Vector3d& point_W) const;
+
+  /// Whether a voxel counts as an obstacle.
+  bool isObstacle(const VoxelIndex& v, const ObstacleRules& rules) const;
+
+  /// First obstacle among the voxels that a segment passes (forEachVoxelOnLine defines them), each
+  /// with its own state, so that virtual walls count for whole voxels; nothing when there is none.
+  /// Takes time in proportion to the voxels up to the obstacle, in the window or not.
+  /// \param from_W, to_W metres, map frame. A segment of which an end has no voxel index, for
+  /// instance NaN, is blocked at its start by a voxel outside of the window, whatever the rules.
+  std::optional<RayHit> castRay(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W,
+                                const ObstacleRules& rules) const;
+  /// Whether a segment meets no obstacle; the same from either end.
+  bool lineOfSight(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W,
+                   const ObstacleRules& rules) const;
 
   /// Measured voxels (virtual walls add none) of a plane inside a box, sorted by x, then y.
   std::vector<VoxelIndex> voxels(Plane plane, const VoxelBox& box) const;

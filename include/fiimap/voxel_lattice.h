@@ -49,14 +49,16 @@ class VoxelLattice {
 
   double resolution() const { return resolution_; }
 
-  /// Voxel that holds the point (metres). Requires canIndex(point_W).
-  VoxelIndex indexOf(const Eigen::Vector3d& point_W) const {
-    return floorOf(point_W * voxels_per_metre_);
+  /// A point (metres) in voxels: the voxel that holds it is the floor.
+  Eigen::Vector3d toVoxels(const Eigen::Vector3d& point_W) const {
+    return point_W * voxels_per_metre_;
   }
+  /// Voxel that holds the point (metres). Requires canIndex(point_W).
+  VoxelIndex indexOf(const Eigen::Vector3d& point_W) const { return floorOf(toVoxels(point_W)); }
   /// Voxel of the box that holds the point (metres).
   /// \return false when none does, or the point is not finite; v is left as it was.
   bool indexIn(const VoxelBox& box, const Eigen::Vector3d& point_W, VoxelIndex* v) const {
-    const Eigen::Vector3d p = point_W * voxels_per_metre_;
+    const Eigen::Vector3d p = toVoxels(point_W);
     const bool inside = (p.array() >= box.min.cast<double>().array()).all() &&
                         (p.array() < box.max.cast<double>().array()).all();
     if (inside) *v = floorOf(p);

@@ -1,5 +1,9 @@
 #include "fiimap/snapshot.h"
 
+#include <algorithm>
+
+#include "fiimap/voxel_line.h"
+
 namespace fiimap {
 
 Snapshot::Snapshot(SlidingGrid* grid, const Info& info)
@@ -48,6 +52,46 @@ Inflation Snapshot::measuredInflation(const VoxelIndex& v) const {
   if (tile == nullptr) return Inflation::kUnknown;
   if (test(tile, Plane::kInflated, v)) return Inflation::kInflated;
   return test(tile, Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
+}
+
+bool Snapshot::isObstacle(const VoxelIndex& v, const ObstacleRules& rules) const {
+  const bool is_raw = rules.layer == MapLayer::kRaw;
+  // The codes of both layers are alike.
+  switch (is_raw ? occupancy(v) : static_cast<Occupancy>(inflation(v))) {
+    case Occupancy::kUnknown:
+      return rules.unknown == Unseen::kObstacle;
+    case Occupancy::kFree:
+      return false;
+    case Occupancy::kOccupied:
+      return true;
+    case Occupancy::kOutside:
+      break;
+  }
+  return rules.outside == Unseen::kObstacle;
+}
+
+std::optional<RayHit> Snapshot::castRay(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W,
+                                        const ObstacleRules& rules) const {
+  if (!lattice_.canIndex(from_W) || !lattice_.canIndex(to_W)) {
+    return RayHit{window().max, from_W, 0.0};
+  }
+  std::optional<RayHit> hit;
+  forEachVoxelOnLine(lattice_.toVoxels(from_W), lattice_.toVoxels(to_W),
+                     [&](const VoxelIndex& v, double t_in, double /*t_out*/) {
+                       if (!isObstacle(v, rules)) return true;
+                       const Eigen::Vector3d way = t_in * (to_W - from_W);
+                       hit = RayHit{v, from_W + way, way.norm()};
+                       return false;
+                     });
+  return hit;
+}
+
+bool Snapshot::lineOfSight(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W,
+                           const ObstacleRules& rules) const {
+  // Always from the same end, so that rounding is the same.
+  const bool a_is_first =
+      std::lexicographical_compare(a_W.data(), a_W.data() + 3, b_W.data(), b_W.data() + 3);
+  return !castRay(a_is_first ? a_W : b_W, a_is_first ? b_W : a_W, rules);
 }
 
 bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const {

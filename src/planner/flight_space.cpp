@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "voxel_line.h"
+#include "fiimap/voxel_line.h"
 
 namespace fiimap {
 namespace {
@@ -34,7 +34,7 @@ FlightSpace::FlightSpace(std::shared_ptr<const Snapshot> snapshot, const FlightR
 
 bool FlightSpace::isFree(const VoxelIndex& v) const {
   if (v.z() < lowest_ || v.z() > highest_) return false;
-  if (rules_.layer == FlightLayer::kRaw) {
+  if (rules_.layer == MapLayer::kRaw) {
     switch (snapshot_->occupancy(v)) {
       case Occupancy::kFree:
         return true;
@@ -73,8 +73,8 @@ bool FlightSpace::isFree(const Eigen::Vector3d& point_W) const {
 }
 
 bool FlightSpace::isUnseen(const Eigen::Vector3d& point_W) const {
-  return rules_.layer == FlightLayer::kRaw ? snapshot_->occupancy(point_W) == Occupancy::kUnknown
-                                           : snapshot_->inflation(point_W) == Inflation::kUnknown;
+  return rules_.layer == MapLayer::kRaw ? snapshot_->occupancy(point_W) == Occupancy::kUnknown
+                                        : snapshot_->inflation(point_W) == Inflation::kUnknown;
 }
 
 bool FlightSpace::isCrossable(const VoxelIndex& v) const {
@@ -85,8 +85,8 @@ bool FlightSpace::isCrossable(const VoxelIndex& v) const {
 
 bool FlightSpace::isLineFree(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) const {
   if (!lattice().canIndex(from_W) || !lattice().canIndex(to_W)) return false;
-  return forEachVoxelOnLine(from_W / resolution(), to_W / resolution(),
-                            [this](const VoxelIndex& v) { return isFree(v); });
+  return forEachVoxelOnLine(lattice().toVoxels(from_W), lattice().toVoxels(to_W),
+                            [this](const VoxelIndex& v, double, double) { return isFree(v); });
 }
 
 }  // namespace fiimap

@@ -6,16 +6,10 @@
 
 namespace fiimap {
 
-/// Which layer of the map a flight must keep out of. Raw is for comparison: it knows no vehicle
-/// size.
-enum class FlightLayer { kInflated, kRaw };
-
-/// What a place is taken for about which the map says nothing.
-enum class Unseen { kObstacle, kFree };
-
 /// By default unseen places are free where a camera looks that is fixed to the vehicle.
 struct FlightRules {
-  FlightLayer layer = FlightLayer::kInflated;
+  /// That a flight must keep out of. Raw is for comparison: it knows no vehicle size.
+  MapLayer layer = MapLayer::kInflated;
   Unseen unknown = Unseen::kFree;
   Unseen outside = Unseen::kObstacle;  ///< of the window
   /// With unknown = kFree: rad above and below the vehicle's horizon beyond which a place that was

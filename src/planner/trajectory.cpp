@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "voxel_line.h"
-
 namespace fiimap {
 namespace {
 

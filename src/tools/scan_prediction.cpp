@@ -1,6 +1,6 @@
 #include "scan_prediction.h"
 
-#include "voxel_walk.h"
+#include "fiimap/voxel_line.h"
 
 namespace fiimap {
 namespace {
@@ -24,7 +24,7 @@ bool isOccupiedAround(const OccupancyQuery& map, const VoxelIndex& v) {
 bool isBlocked(const OccupancyQuery& map, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const double length = (to - from).norm();
   bool blocked = false;
-  walkVoxels(from, to, [&](const VoxelIndex& v, double t_out) {
+  forEachVoxelOnLine(from, to, [&](const VoxelIndex& v, double /*t_in*/, double t_out) {
     const bool well_before_end = (1.0 - t_out) * length > kBlockedBeforeEnd;
     blocked = well_before_end && isOccupied(map, v);
     return well_before_end && !blocked;

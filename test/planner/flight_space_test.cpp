@@ -22,8 +22,8 @@ class FlightSpaceTest : public ::testing::Test {
 };
 
 TEST_F(FlightSpaceTest, TheLayerDecidesWhatIsAnObstacle) {
-  const FlightSpace inflated = map_.space({FlightLayer::kInflated});
-  const FlightSpace raw = map_.space({FlightLayer::kRaw});
+  const FlightSpace inflated = map_.space({MapLayer::kInflated});
+  const FlightSpace raw = map_.space({MapLayer::kRaw});
   EXPECT_TRUE(inflated.isFree(kFree));
   EXPECT_FALSE(inflated.isFree(kObstacle));
   EXPECT_FALSE(inflated.isFree(kInflated));
@@ -35,7 +35,7 @@ TEST_F(FlightSpaceTest, TheLayerDecidesWhatIsAnObstacle) {
 }
 
 TEST_F(FlightSpaceTest, WhatIsNotSeenIsWhatTheUserChose) {
-  for (const FlightLayer layer : {FlightLayer::kInflated, FlightLayer::kRaw}) {
+  for (const MapLayer layer : {MapLayer::kInflated, MapLayer::kRaw}) {
     for (const Unseen unknown : {Unseen::kObstacle, Unseen::kFree}) {
       for (const Unseen outside : {Unseen::kObstacle, Unseen::kFree}) {
         const FlightSpace space = map_.space({layer, unknown, outside});
@@ -81,7 +81,7 @@ TEST_F(FlightSpaceTest, AVoxelThatAWallCutsIsNotFree) {
 }
 
 TEST_F(FlightSpaceTest, PointsThatAreNotFiniteAreNotFree) {
-  const FlightSpace space = map_.space({FlightLayer::kInflated, Unseen::kFree, Unseen::kFree});
+  const FlightSpace space = map_.space({MapLayer::kInflated, Unseen::kFree, Unseen::kFree});
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     const Eigen::Vector3d point(0.0, bad, 0.0);

@@ -12,7 +12,6 @@
 #include "json_file.h"
 #include "scan_prediction.h"
 #include "temporary_file.h"
-#include "voxel_walk.h"
 
 namespace fiimap {
 namespace {
@@ -83,37 +82,6 @@ TEST_F(ScanPredictionTest, CountsEndPointsOutsideOfTheWindow) {
   EXPECT_EQ(result.outside, 1u);
   EXPECT_EQ(result.hits, 1u);
   EXPECT_EQ(result.blocked, 1u);
-}
-
-TEST(VoxelWalkTest, VisitsEveryVoxelOfASlantedLine) {
-  std::vector<VoxelIndex> voxels;
-  std::vector<double> exits;
-  walkVoxels({0.5, 0.25, -0.5}, {2.5, 1.25, -0.5}, [&](const VoxelIndex& v, double t_out) {
-    voxels.push_back(v);
-    exits.push_back(t_out);
-    return true;
-  });
-  const std::vector<VoxelIndex> expected = {{0, 0, -1}, {1, 0, -1}, {2, 0, -1}, {2, 1, -1}};
-  EXPECT_EQ(voxels, expected);
-  EXPECT_EQ(exits, std::vector<double>({0.25, 0.75, 0.75, 1.0}));
-}
-
-TEST(VoxelWalkTest, WalksBackwardsAndStopsWhenAsked) {
-  std::vector<VoxelIndex> voxels;
-  walkVoxels({0.5, 0.5, 0.5}, {0.5, -2.5, 0.5}, [&](const VoxelIndex& v, double) {
-    voxels.push_back(v);
-    return v.y() > -1;
-  });
-  EXPECT_EQ(voxels, std::vector<VoxelIndex>({{0, 0, 0}, {0, -1, 0}}));
-}
-
-TEST(VoxelWalkTest, VisitsTheOnlyVoxelOfARayWithoutLength) {
-  int visits = 0;
-  walkVoxels({0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, [&](const VoxelIndex&, double t_out) {
-    EXPECT_EQ(t_out, 1.0);
-    return ++visits > 0;
-  });
-  EXPECT_EQ(visits, 1);
 }
 
 TEST(HeldOutSplitTest, HoldsOutEveryTenth) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fiimap/voxel_line.h"
 #include "seen_surface.h"
 #include "truth/passing_margin.h"
-#include "voxel_walk.h"
 
 namespace fiimap {
 
@@ -17,7 +17,7 @@ void PassedVoxels::add(const RangeData& scan, const ExactScene& scene, double ti
         std::min(scene.firstHit(scan.origin, direction_W, time).distance, max_range_);
     const Eigen::Vector3d end = (scan.origin + length * direction_W) * to_voxels;
     const VoxelIndex last = end.array().floor().cast<int>();
-    walkVoxels(scan.origin * to_voxels, end, [&](const VoxelIndex& v, double /*t_out*/) {
+    forEachVoxelOnLine(scan.origin * to_voxels, end, [&](const VoxelIndex& v, double, double) {
       if (v != last && ever_.insert(keyOf(v)).second) {
         passed_.push_back(v);
       }
