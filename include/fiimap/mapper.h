@@ -84,6 +84,20 @@ class Mapper {
   /// number of sensors.
   void reconfigure(const MapperConfig& config);
 
+  /// Makes all voxels of boxes, as far as they lie in the window, unknown, free or occupied,
+  /// whatever was seen of them; the inflated layer is exact again on return. Free and occupied are
+  /// as sure as log-odds get, so scans change them as they change what was seen many times. Before
+  /// the window is placed, all voxels lie outside of it.
+  /// \return how many voxels of the boxes lie in the window; those of several boxes count each
+  /// time. \throws std::invalid_argument for the state kOutside.
+  std::int64_t overwrite(const std::vector<VoxelBox>& boxes, Occupancy state);
+
+  /// Puts the window where a scan of a vehicle at this position (world, metres) would put it; does
+  /// nothing when a scan, or a call like this, has done so since the start or the last reset.
+  /// \throws std::invalid_argument for a position that has no voxel index.
+  void placeWindow(const Eigen::Vector3d& vehicle_W);
+  bool hasWindow() const { return window_placed_; }
+
   const MapperConfig& config() const { return config_; }
   const LogOdds& logOdds() const { return stages_->integrator.logOdds(); }
   /// For tests, evaluation and statistics.

@@ -9,6 +9,8 @@
 
 #include "fiimap/parameters.h"
 
+#include "overwrite.h"
+
 namespace fiimap {
 namespace {
 
@@ -194,6 +196,30 @@ void Mapper::reconfigure(const MapperConfig& config) {
   }
   stages_ = std::move(stages);
   config_ = config;
+}
+
+std::int64_t Mapper::overwrite(const std::vector<VoxelBox>& boxes, Occupancy state) {
+  if (state == Occupancy::kOutside) {
+    throw std::invalid_argument("voxels cannot be made to lie outside of the window");
+  }
+  if (!window_placed_) return 0;
+  std::int64_t voxels = 0;
+  changes_.clear();
+  for (const VoxelBox& box : boxes) {
+    voxels += box.intersection(grid_.window()).volume();
+    fiimap::overwrite(box, state, log_odds_, &grid_, &changes_);
+  }
+  inflater_->update(changes_, &grid_);
+  return voxels;
+}
+
+void Mapper::placeWindow(const Eigen::Vector3d& vehicle_W) {
+  if (!lattice_.canIndex(vehicle_W)) {
+    throw std::invalid_argument("position of the vehicle: not finite or too far from the origin");
+  }
+  if (window_placed_) return;
+  changes_.clear();  // nothing is known yet, so nothing is left behind
+  follow(lattice_.indexOf(vehicle_W));
 }
 
 std::size_t Mapper::memoryBytes() const { return grid_.memoryBytes() + mask_.memoryBytes(); }

@@ -2,13 +2,9 @@
 
 #include <unistd.h>
 
-#include <stdexcept>
-
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "fiimap/ros/box_query.h"
-#include "fiimap/ros/map_files.h"
 #include "fiimap/ros/map_handle_message.h"
 #include "fiimap/ros/map_messages.h"
 #include "fiimap/ros/parameter_sources.h"
@@ -60,7 +56,7 @@ MappingNodelet::~MappingNodelet() {
   // first: a reset service that waits for it returns then.
   mapping_->stop();
   diagnostics_timer_.stop();
-  for (ros::ServiceServer& service : services_) service.shutdown();
+  if (services_) services_->stop();
   tuning_.reset();
 }
 
@@ -117,47 +113,11 @@ void MappingNodelet::advertise() {
                                                       [this] { return mapping_->counters(); });
 
   // Services may wait or write files, so they must not hold up the input callbacks.
-  ros::NodeHandle& concurrent_node = getMTPrivateNodeHandle();
-  services_.push_back(
-      concurrent_node.advertiseService("reset", &MappingNodelet::onResetService, this));
-  services_.push_back(
-      concurrent_node.advertiseService("get_box", &MappingNodelet::onBoxService, this));
-  services_.push_back(
-      concurrent_node.advertiseService("save_map", &MappingNodelet::onSaveService, this));
+  services_ = std::make_unique<MapServices>(getMTPrivateNodeHandle(), node_config_, handle_,
+                                            mapping_.get());
   diagnostics_timer_ = getMTNodeHandle().createWallTimer(
       ros::WallDuration(kDiagnosticsPeriod),
       [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
-}
-
-bool MappingNodelet::onResetService(std_srvs::Trigger::Request&,
-                                    std_srvs::Trigger::Response& response) {
-  response.success = mapping_->reset();
-  response.message = response.success ? "the map is empty" : "the node is shutting down";
-  return true;
-}
-
-bool MappingNodelet::onBoxService(GetBox::Request& request, GetBox::Response& response) {
-  const std::shared_ptr<const Snapshot> snapshot = handle_->latest();
-  if (snapshot) {
-    response = queryBox(*snapshot, request, node_config_.map_frame);
-  } else {
-    response.message = "there is no map yet";
-  }
-  return true;
-}
-
-bool MappingNodelet::onSaveService(SaveMap::Request& request, SaveMap::Response& response) {
-  const std::lock_guard<std::mutex> lock(save_mutex_);
-  try {
-    const std::shared_ptr<const Snapshot> snapshot = handle_->latest();
-    if (!snapshot) throw std::runtime_error("there is no map yet");
-    response.message = saveMap(*snapshot, node_config_.save_directory, request.name);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    response.success = false;
-  }
-  return true;
 }
 
 void MappingNodelet::onDiagnosticsTimer() {

@@ -3,22 +3,18 @@
 #include <chrono>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include <fiimap/GetBox.h>
-#include <fiimap/SaveMap.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 
 #include "changes_publisher.h"
 #include "cloud_publisher.h"
 #include "fiimap/map_handle.h"
 #include "fiimap/ros/node_config.h"
 #include "input_subscriber.h"
+#include "map_services.h"
 #include "mapping_diagnostics.h"
 #include "mapping_thread.h"
 #include "status_publisher.h"
@@ -44,9 +40,6 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   void logStart(const Mapper& mapper);
   void advertise();
 
-  bool onResetService(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool onBoxService(GetBox::Request& request, GetBox::Response& response);
-  bool onSaveService(SaveMap::Request& request, SaveMap::Response& response);
   void onDiagnosticsTimer();
   void publishHandle(const Snapshot& snapshot);
 
@@ -73,11 +66,10 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   std::unique_ptr<InputSubscriber> inputs_;
   std::unique_ptr<TuningServer> tuning_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
-  std::vector<ros::ServiceServer> services_;
+  std::unique_ptr<MapServices> services_;
   ros::WallTimer diagnostics_timer_;
   // Of the diagnostics timer alone; a while after the start nothing is missing yet.
   std::chrono::steady_clock::time_point missing_warned_ = std::chrono::steady_clock::now();
-  std::mutex save_mutex_;
 };
 
 }  // namespace fiimap

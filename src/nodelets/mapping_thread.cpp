@@ -67,8 +67,8 @@ bool MappingThread::reset() {
 bool MappingThread::edit(std::function<void(Mapper*)> function) {
   return doBetweenScans([this, function = std::move(function)] {
     function(&mapper_);
-    // Before the first scan there is no map that readers could get.
-    if (!handle_->latest()) return;
+    // Before the first scan there is no map that readers could get, unless one was loaded.
+    if (!mapper_.hasWindow()) return;
     const std::shared_ptr<const Snapshot> snapshot = mapper_.snapshot();
     handle_->publish(snapshot);
     observer_->onEdit(snapshot);

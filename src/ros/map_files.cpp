@@ -5,11 +5,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 
 namespace fiimap {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error(what); }
 
@@ -43,12 +46,16 @@ void replaceFile(const std::string& directory, const std::string& name,
   }
 }
 
+void requireDirectory(const std::string& directory) {
+  if (directory.empty()) refuse("the parameter save_directory is not set");
+}
+
 }  // namespace
 
 std::string saveMap(const Snapshot& snapshot, const std::string& directory,
                     const std::string& name) {
   requireName(name);
-  if (directory.empty()) refuse("the parameter save_directory is not set");
+  requireDirectory(directory);
   if (snapshot.count(Plane::kOccupied) == 0) refuse("the map has no occupied voxel yet");
   replaceFile(directory, name + "_occupied.pcd",
               [&snapshot](const std::string& file) { writePcd(snapshot, Plane::kOccupied, file); });
@@ -60,6 +67,22 @@ std::string saveMap(const Snapshot& snapshot, const std::string& directory,
          " voxels), " + name + "_inflated.pcd (" +
          std::to_string(snapshot.count(Plane::kInflated)) + " voxels) and " + name + ".bt to " +
          directory;
+}
+
+SavedMap readMap(const std::string& directory, const std::string& name) {
+  requireName(name);
+  requireDirectory(directory);
+  const std::string octomap = directory + "/" + name + ".bt";
+  const std::string pcd = directory + "/" + name + "_occupied.pcd";
+  const bool is_octomap = fs::exists(octomap) || !fs::exists(pcd);
+  const std::string file = is_octomap ? octomap : pcd;
+  try {
+    SavedMap map = is_octomap ? readOctomap(file) : readPcd(file);
+    map.file = file;
+    return map;
+  } catch (const std::exception& error) {
+    refuse(file + ": " + error.what());
+  }
 }
 
 }  // namespace fiimap

@@ -53,7 +53,7 @@ std::vector<Parameter> queueAndOutputParameters(NodeConfig* c) {
       numberParameter("keyframe_period", &c->keyframe_period, kMinKeyframePeriod, kMaxSeconds, "s",
                       "time between whole maps on ~changes"),
       textParameter("save_directory", &c->save_directory,
-                    "where ~save_map writes; empty: it refuses"),
+                    "where ~save_map writes and ~load_map reads; empty: they refuse"),
   };
 }
 

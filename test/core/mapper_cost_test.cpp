@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -51,13 +52,13 @@ class MapperCostTest : public ::testing::Test {
     return config;
   }
 
-  /// Integrates and checks that exactly the tiles with changed voxels were copied.
+  /// Changes the map and checks that exactly the tiles with changed voxels were copied.
   /// \return how many.
-  std::size_t copiedTiles(const PointScan& scan, const ScanPose& pose) {
+  std::size_t copiedTiles(const std::function<void()>& change) {
     // The old snapshot is held, so that no address is used again.
     const std::shared_ptr<const Snapshot> old_snapshot = mapper_.snapshot();
     const auto old_addresses = addresses(mapper_);
-    mapper_.integrate(scan, pose);
+    change();
     const std::shared_ptr<const Snapshot> snapshot = mapper_.snapshot();
     std::set<TileId> copied;
     for (const auto& [tile, address] : addresses(mapper_)) {
@@ -66,6 +67,10 @@ class MapperCostTest : public ::testing::Test {
     }
     EXPECT_EQ(copied, tilesThatDiffer(*old_snapshot, *snapshot));
     return copied.size();
+  }
+
+  std::size_t copiedTiles(const PointScan& scan, const ScanPose& pose) {
+    return copiedTiles([&] { mapper_.integrate(scan, pose); });
   }
 
   static std::set<TileId> tilesThatDiffer(const Snapshot& a, const Snapshot& b) {
@@ -110,6 +115,17 @@ TEST_F(MapperCostTest, InflationAcrossABorderCopiesBothTiles) {
   std::size_t most = 0;
   for (int i = 0; i < 3; ++i) most = std::max(most, copiedTiles(kPointAhead, pose));
   EXPECT_EQ(most, 2u);
+}
+
+TEST_F(MapperCostTest, AnEditCopiesTheTilesThatItChanges) {
+  const VoxelIndex v(50, 50, 2);  // in the middle of a tile
+  const auto makeIt = [&](Occupancy state) {
+    mapper_.overwrite({{v, v + VoxelIndex(2, 1, 1)}}, state);
+  };
+  EXPECT_EQ(copiedTiles([&] { makeIt(Occupancy::kOccupied); }), 1u);
+  EXPECT_EQ(copiedTiles([&] { makeIt(Occupancy::kOccupied); }), 0u);
+  EXPECT_EQ(copiedTiles([&] { makeIt(Occupancy::kUnknown); }), 1u);
+  EXPECT_EQ(copiedTiles([&] { makeIt(Occupancy::kUnknown); }), 0u);
 }
 
 }  // namespace

@@ -41,6 +41,10 @@ class Mappers {
   void reset() {
     for (const auto& mapper : mappers_) mapper->reset();
   }
+  void overwrite(const VoxelBox& box, Occupancy state) {
+    for (const auto& mapper : mappers_) mapper->overwrite({box}, state);
+  }
+  VoxelBox window() const { return mappers_.front()->grid().window(); }
   void setElement(const ElementDefinition& element) {
     element_ = element;
     for (const auto& mapper : mappers_) {
@@ -104,6 +108,12 @@ TEST_P(MapperInflationTest, AllMethodsAgreeWithTheDefinitionOverAFlight) {
       pose.T_W_S.translation() = pose.vehicle_W;
       mappers.integrate(randomPoints(random, test::uniformInt(random, 0, 6)), pose);
       ASSERT_NO_FATAL_FAILURE(mappers.check());
+      if (test::chance(random, 0.2)) {
+        const VoxelIndex a = test::voxelNearFaces(random, mappers.window());
+        const VoxelIndex b = a.array() + test::uniformInt(random, 1, 4);
+        mappers.overwrite({a, b}, static_cast<Occupancy>(test::uniformInt(random, 0, 2)));
+        ASSERT_NO_FATAL_FAILURE(mappers.check());
+      }
       most_occupied = std::max(most_occupied, mappers.occupied());
     }
   }

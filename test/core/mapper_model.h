@@ -69,6 +69,22 @@ class MapperModel {
     });
   }
 
+  /// \return voxels of the boxes in the window.
+  std::int64_t overwrite(const std::vector<VoxelBox>& boxes, Occupancy state,
+                         const VoxelBox& window) {
+    std::int64_t voxels = 0;
+    for (const VoxelBox& box : boxes) {
+      forEachVoxel(box, [&](const VoxelIndex& v) {
+        if (!window.contains(v)) return;
+        ++voxels;
+        values_.erase(v);
+        if (state == Occupancy::kFree) values_[v] = log_odds_.min;
+        if (state == Occupancy::kOccupied) values_[v] = log_odds_.max;
+      });
+    }
+    return voxels;
+  }
+
   void reset() { values_.clear(); }
 
   /// Voxels keep their log-odds to the nearest step, of two that are as near the one farther from

@@ -48,6 +48,20 @@ MapperConfig randomConfig(test::Random& random) {
   return config;
 }
 
+/// A few boxes that lie in the window, or at least near it, and may overlap.
+std::vector<VoxelBox> randomBoxes(test::Random& random, const VoxelBox& window) {
+  const VoxelBox around{window.min.array() - 3, window.max.array() + 3};
+  std::vector<VoxelBox> boxes;
+  for (int i = test::uniformInt(random, 0, 4); i > 0; --i) {
+    const VoxelIndex a = test::uniformVoxel(random, around), b = test::uniformVoxel(random, around);
+    boxes.push_back({a.cwiseMin(b), a.cwiseMax(b)});
+    const bool is_column = test::chance(random, 0.3), is_voxel = test::chance(random, 0.3);
+    if (is_column || is_voxel) boxes.back().max.head<2>() = boxes.back().min.head<2>().array() + 1;
+    if (is_voxel) boxes.back().max.z() = boxes.back().min.z() + 1;
+  }
+  return boxes;
+}
+
 class MapperModelTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
@@ -76,6 +90,12 @@ TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
     ASSERT_EQ(report.changeScore(), model.lowered() + model.raised());
     ASSERT_EQ(report.readings.total, points_W.size());
     changes += report.changeScore();
+
+    if (!test::chance(random, 0.2)) continue;
+    const auto state = static_cast<Occupancy>(test::uniformInt(random, 0, 2));
+    const std::vector<VoxelBox> boxes = randomBoxes(random, window);
+    ASSERT_EQ(mapper.overwrite(boxes, state), model.overwrite(boxes, state, window));
+    ASSERT_TRUE(model.equals(mapper.grid(), kElement)) << "after an edit";
   }
   const bool is_roomy =
       std::min(config.mapSize().minCoeff(), config.localUpdateRange().minCoeff()) >= 2.0;

@@ -13,6 +13,7 @@ import yaml
 FOLDER = pathlib.Path(__file__).resolve().parent
 DOCUMENT = FOLDER.parent.parent / 'docs' / 'faults.md'
 SOURCE = FOLDER / 'faults.yaml'
+PARTS = ('messages', 'parameters', 'files', 'loading', 'live')
 LEVELS = {'ok': 'OK', 'warn': 'WARN', 'error': 'ERROR'}
 TITLE = """# What goes wrong, and what happens then
 
@@ -62,12 +63,11 @@ def other_table(faults):
 
 
 def document(catalogue):
-    parts = ('messages', 'parameters', 'files', 'live')
-    count = sum(len(section['faults']) for part in parts for section in catalogue[part])
+    count = sum(len(section['faults']) for part in PARTS for section in catalogue[part])
     text = TITLE.format(count=count) + REMEDIES
     text += ''.join(f'| {reason} | {remedy} |\n'
                     for reason, remedy in catalogue['remedies'].items())
-    for part in parts:
+    for part in PARTS:
         table = message_table if part == 'messages' else other_table
         for section in catalogue[part]:
             lines = '\n'.join(table(section['faults']))
@@ -78,8 +78,7 @@ def document(catalogue):
 
 def main():
     catalogue = yaml.safe_load(SOURCE.read_text())
-    ids = [row['id'] for part in ('messages', 'parameters', 'files', 'live')
-           for section in catalogue[part] for row in section['faults']]
+    ids = [row['id'] for part in PARTS for section in catalogue[part] for row in section['faults']]
     if len(ids) != len(set(ids)):
         sys.exit(f'{SOURCE}: an id stands there twice')
     text = document(catalogue)

@@ -1,10 +1,14 @@
 // What save_map writes, read back: the .bt and .pcd files hold the map's voxels and no others.
+// Damaged files are read or refused.
 
 #include <octomap/octomap.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 
 #include "../core/oracle.h"
 #include "byte_source.h"
@@ -62,6 +66,44 @@ void compareOctomap(const Snapshot& snapshot, const std::string& file) {
   require(occupied == voxelsOf(snapshot, Plane::kOccupied), "the .bt has other obstacles");
 }
 
+VoxelSet voxelsOf(const std::vector<VoxelBox>& boxes) {
+  VoxelSet voxels;
+  for (const VoxelBox& box : boxes) {
+    test::forEachVoxel(box, [&](const VoxelIndex& v) { voxels.insert(v); });
+  }
+  return voxels;
+}
+
+/// As load_map reads them.
+void compareSaved(const Snapshot& snapshot, const SavedMap& saved, bool has_free) {
+  VoxelSet voxels = voxelsOf(saved.occupied);
+  require(voxels == voxelsOf(snapshot, Plane::kOccupied), "other obstacles are read");
+  if (!has_free) return;
+  for (const VoxelIndex& v : voxelsOf(saved.free)) voxels.insert(v);
+  require(voxels == voxelsOf(snapshot, Plane::kKnown), "other known voxels are read");
+}
+
+/// Changes some bytes of a file, or all from some place on, and reads it.
+template <typename Read>
+void readDamaged(ByteSource* bytes, const TemporaryInput& file, Read&& read) {
+  std::ifstream stream(file.path(), std::ios::binary);
+  std::string content(std::istreambuf_iterator<char>(stream), {});
+  constexpr int kAnywhere = 65535;
+  const auto place = [&] { return bytes->integer(0, kAnywhere) % content.size(); };
+  for (int i = bytes->integer(0, 4); i > 0; --i) content[place()] = bytes->take<char>();
+  if (bytes->flag()) {
+    content.resize(place() + 1);
+    constexpr std::size_t kMost = 1000;
+    for (const std::uint8_t byte : bytes->bytes(kMost)) content += static_cast<char>(byte);
+  }
+  file.write(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
+  try {
+    read(file.path());
+  } catch (const std::runtime_error&) {
+    // With a sentence; whatever else is thrown ends the fuzzer.
+  }
+}
+
 void scan(ByteSource* bytes, Mapper* mapper) {
   const double edge = mapper->config().resolution;
   const auto takeOffset = [&](int reach) { return bytes->integer(-reach, reach) * edge; };
@@ -93,8 +135,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (snapshot->count(plane) == 0) continue;  // save_map refuses
     writePcd(*snapshot, plane, pcd.path());
     fuzz::comparePcd(*snapshot, plane, pcd.path());
+    if (plane == Plane::kOccupied) fuzz::compareSaved(*snapshot, readPcd(pcd.path()), false);
+    fuzz::readDamaged(&bytes, pcd, readPcd);
   }
   writeOctomap(*snapshot, bt.path());
   fuzz::compareOctomap(*snapshot, bt.path());
+  fuzz::compareSaved(*snapshot, readOctomap(bt.path()), true);
+  fuzz::readDamaged(&bytes, bt, readOctomap);
   return 0;
 }

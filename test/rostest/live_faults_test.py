@@ -13,7 +13,9 @@ from sensor_msgs.msg import PointCloud2
 from xmlrpc.client import Binary
 
 import make_bag_variants
-from fiimap.srv import SaveMap
+from fiimap.srv import (
+    CastRays, CastRaysRequest, ClearBox, GetBox, LoadMap, QueryPoints, SaveMap)
+from geometry_msgs.msg import Point
 from rostest_support import FLIGHT_BAG, PACKAGE, program, topics_between, wait_for
 from vehicle_support import VehicleTest
 
@@ -72,8 +74,10 @@ class LiveFaultsTest(VehicleTest):
                                f'exec {program("fiimap", "mapping_node")} __name:=map')
         self.wait_for_map(self.listener, self.node)
         wait_for(self.vehicle.is_connected, 'the connections of the vehicle')
+        self.check_requests_without_a_map()
         self.fly_well()
 
+        self.check_bad_requests(maps)
         self.row('live_clock_stops')
         self.fly_well(10, clock=nothing)
         self.check_saving(maps)
@@ -82,6 +86,45 @@ class LiveFaultsTest(VehicleTest):
         self.row('live_terminate_node')
         self.node.send(signal.SIGTERM)
         self.assertEqual(self.node.wait(), 0, self.node.output())
+
+    def assert_refused(self, name, service, kind, *arguments):
+        self.row(name)
+        response = rospy.ServiceProxy(f'/map/{service}', kind)(*arguments)
+        self.assertFalse(response.success, response)
+        self.assert_told(name, response.message)
+
+    def rays(self, start, end, count=1):
+        return CastRaysRequest(starts=[start] * count, ends=[end] * count,
+                               layer=CastRaysRequest.RAW, unknown=CastRaysRequest.FREE,
+                               outside=CastRaysRequest.FREE)
+
+    def check_requests_without_a_map(self):
+        for service, kind, arguments in (
+                ('get_box', GetBox, (Point(), Point())), ('query_points', QueryPoints, ([Point()],)),
+                ('cast_rays', CastRays, (self.rays(Point(), Point()),)),
+                ('clear_box', ClearBox, (Point(), Point(), 0)), ('save_map', SaveMap, ('room',))):
+            self.assert_refused('live_request_no_map', service, kind, *arguments)
+
+    def check_bad_requests(self, maps):
+        origin, far, nowhere = Point(), Point(1e6, 1e6, 1e6), Point(float('nan'), 0, 0)
+        too_many = 2 ** 20 + 1
+        for service, kind, arguments in (
+                ('get_box', GetBox, (origin, far)),
+                ('query_points', QueryPoints, ([origin] * too_many,)),
+                ('cast_rays', CastRays, (self.rays(origin, origin, too_many),)),
+                ('cast_rays', CastRays, (self.rays(origin, far),))):
+            self.assert_refused('live_request_absurd', service, kind, *arguments)
+        for service, kind, arguments in (
+                ('get_box', GetBox, (origin, nowhere)), ('clear_box', ClearBox, (nowhere, far, 0)),
+                ('cast_rays', CastRays, (self.rays(nowhere, origin),))):
+            self.assert_refused('live_request_not_finite', service, kind, *arguments)
+        self.assert_refused('live_request_incomplete', 'cast_rays', CastRays,
+                            CastRaysRequest(starts=[origin], ends=[origin]))
+        damaged = maps / 'damaged.bt'
+        damaged.write_bytes(b'# Octomap OcTree binary file\nid OcTree\nsize 9\nres 0.05\ndata\n\xff')
+        self.assert_refused('live_request_damaged_map', 'load_map', LoadMap, 'damaged', origin)
+        damaged.unlink()
+        self.fly_well()
 
     def check_saving(self, maps):
         save = rospy.ServiceProxy('/map/save_map', SaveMap)

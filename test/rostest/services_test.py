@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""~save_map writes what is published and refuses what it cannot do; ~reset forgets."""
+"""Services of the map: queries tell what is published, edits change it, files hold it."""
+import math
 import tempfile
 
 import rospy
@@ -8,7 +9,9 @@ from std_srvs.srv import Trigger
 
 import make_bag_variants
 from geometry_msgs.msg import Point
-from fiimap.srv import GetBox, GetBoxResponse, SaveMap
+from fiimap.srv import (
+    CastRays, CastRaysRequest, ClearBox, ClearBoxRequest, GetBox, GetBoxResponse, LoadMap, QueryPoints,
+    SaveMap)
 from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, wait_for
 from voxels import voxels_at, voxels_of_cloud, voxels_of_pcd
 
@@ -17,6 +20,10 @@ RESOLUTION = 0.1
 PARAMETERS = {**PATIENT_QUEUES, 'sensor': FORM[0], 'resolution': RESOLUTION}
 SCANS = 20
 BOX_REACH = 20  # voxels
+
+
+def center(voxel):
+    return Point(*(RESOLUTION * (c + 0.5) for c in voxel))
 
 
 class ServicesTest(MapTest):
@@ -139,6 +146,108 @@ class ServicesTest(MapTest):
         self.assertGreater(len(inside[0]), 0)
         self.assertEqual(found[0], inside[0])
         self.assertEqual(found[1], inside[1])
+
+    def test_query_points_tells_what_is_published(self):
+        listener = self.start_and_play()
+        occupied, inflated = (voxels_of_cloud(cloud, RESOLUTION)
+                              for cloud in listener.wait_for_clouds())
+        voxels = sorted(inflated)
+        away = Point(1e6, 0, 0)
+        response = self.call('query_points', QueryPoints, [center(v) for v in voxels] + [away])
+        self.assertTrue(response.success, response.message)
+        self.assertEqual(response.header.stamp, listener.newest().header.stamp)
+        *states, outside = response.states
+        self.assertEqual({v for v, state in zip(voxels, states)
+                          if state % 4 == GetBoxResponse.OCCUPIED}, occupied)
+        self.assertEqual({state // 4 for state in states}, {GetBoxResponse.OCCUPIED})
+        self.assertEqual(outside, 5 * GetBoxResponse.OUTSIDE)
+
+    def test_cast_rays_stop_at_what_is_published(self):
+        listener = self.start_and_play()
+        occupied, _ = (voxels_of_cloud(cloud, RESOLUTION) for cloud in listener.wait_for_clouds())
+        # Down on voxels that have nothing above them: only they can stop the ray.
+        tops = {}
+        for x, y, z in occupied:
+            tops[x, y] = max(z, tops.get((x, y), z))
+        voxels = [(x, y, z) for (x, y), z in sorted(tops.items())]
+        request = CastRaysRequest(layer=CastRaysRequest.RAW, unknown=CastRaysRequest.FREE,
+                                  outside=CastRaysRequest.FREE)
+        height = 1.0
+        for voxel in voxels:
+            for target in (0.0, 1.0):  # to the voxel's centre; and so far above that it is not met
+                point = center(voxel)
+                request.starts.append(Point(point.x, point.y, point.z + target + height))
+                request.ends.append(Point(point.x, point.y, point.z + target))
+        response = self.call('cast_rays', CastRays, request)
+        self.assertTrue(response.success, response.message)
+        self.assertEqual(list(response.hit), [True, False] * len(voxels))
+        for i, voxel in enumerate(voxels):
+            self.assertAlmostEqual(response.distances[2 * i], height - RESOLUTION / 2)
+            self.assertAlmostEqual(response.points[2 * i].z, (voxel[2] + 1) * RESOLUTION)
+            self.assertAlmostEqual(response.distances[2 * i + 1], height)
+
+    def test_clear_box_takes_obstacles_and_their_inflation_away(self):
+        listener = self.start_and_play()
+        occupied, inflated = (voxels_of_cloud(cloud, RESOLUTION)
+                              for cloud in listener.wait_for_clouds())
+        low, high = ([f(v[axis] for v in occupied) for axis in range(3)] for f in (min, max))
+        middle = (low[0] + high[0]) // 2
+        cleared = self.call('clear_box', ClearBox, center(low), center([middle, *high[1:]]),
+                            ClearBoxRequest.UNKNOWN)
+        self.assertTrue(cleared.success, cleared.message)
+        sizes = [middle - low[0] + 1] + [high[axis] - low[axis] + 1 for axis in (1, 2)]
+        self.assertEqual(cleared.voxels, math.prod(sizes))
+        left = {v for v in occupied if v[0] > middle}
+        self.assertTrue(0 < len(left) < len(occupied))
+        wait_for(lambda: listener.clouds['occupied'].width == len(left), 'the cleared cloud')
+        now = voxels_of_cloud(listener.clouds['occupied'], RESOLUTION)
+        self.assertEqual(now, left)
+        wait_for(lambda: listener.clouds['inflated'].width < len(inflated), 'its inflation')
+        reach = 2  # voxels of the default radius
+        steps = range(-reach, reach + 1)
+        ball = [(dx, dy, dz) for dx in steps for dy in steps for dz in steps
+                if dx * dx + dy * dy + dz * dz <= reach * reach]
+        near = {(x + dx, y + dy, z + dz) for x, y, z in left for dx, dy, dz in ball}
+        # The cloud before holds no voxel outside of the window.
+        self.assertEqual(voxels_of_cloud(listener.clouds['inflated'], RESOLUTION), near & inflated)
+
+        freed = self.call('clear_box', ClearBox, center(low), center(high), ClearBoxRequest.FREE)
+        self.assertTrue(freed.success, freed.message)
+        wait_for(lambda: {cloud.width for cloud in listener.clouds.values()} == {0}, 'empty clouds')
+        response = self.call('query_points', QueryPoints, [center(v) for v in sorted(occupied)])
+        self.assertEqual(set(response.states), {5 * GetBoxResponse.FREE})
+
+    def test_load_map_gives_another_node_the_map_before_its_first_scan(self):
+        listener = self.start_and_play(save_directory=str(self.target))
+        clouds = [voxels_of_cloud(cloud, RESOLUTION) for cloud in listener.wait_for_clouds()]
+        self.assertTrue(self.save('flight').success)
+        _, other = self.start_map({**PARAMETERS, 'save_directory': str(self.target)}, name='other')
+
+        def load(name):
+            rospy.wait_for_service('/other/load_map')
+            return rospy.ServiceProxy('/other/load_map', LoadMap)(name, Point())
+        missing = load('missing')
+        self.assertFalse(missing.success)
+        self.assertIn(f'{self.target}/missing.bt: cannot be read', missing.message)
+
+        loaded = load('flight')
+        self.assertTrue(loaded.success, loaded.message)
+        self.assertEqual(loaded.occupied, len(clouds[0]))
+        self.assertGreater(loaded.free, loaded.occupied)
+        self.assertEqual(loaded.outside, 0)
+        wait_for(lambda: len(other.clouds) == 2 and other.clouds['inflated'].width,
+                 'clouds of the loaded map')
+        self.assertEqual([voxels_of_cloud(other.clouds[layer], RESOLUTION)
+                          for layer in ('occupied', 'inflated')], clouds)
+
+        # Only the obstacles, over what is there.
+        (self.target / 'flight.bt').unlink()
+        loaded = load('flight')
+        self.assertTrue(loaded.success, loaded.message)
+        self.assertEqual((loaded.occupied, loaded.free), (len(clouds[0]), 0))
+
+        self.play(self.bag, '--rate=2')
+        self.assertEqual(other.wait_for_integrated(SCANS).dropped, 0)
 
     def test_get_box_refuses_before_the_first_scan_and_what_is_no_box(self):
         self.start_map(PARAMETERS)

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <geometry_msgs/Point.h>
+#include <Eigen/Core>
 
 namespace fiimap {
+
+inline Eigen::Vector3d toEigen(const geometry_msgs::Point& p) { return {p.x, p.y, p.z}; }
 
 inline geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
   geometry_msgs::Point point;
