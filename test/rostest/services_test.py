@@ -9,9 +9,11 @@ from std_srvs.srv import Trigger
 
 import make_bag_variants
 from geometry_msgs.msg import Point
+from fiimap.msg import MapInfo
 from fiimap.srv import (
     CastRays, CastRaysRequest, ClearBox, ClearBoxRequest, GetBox, GetBoxResponse, LoadMap, QueryPoints,
     SaveMap)
+from process import PATIENCE
 from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, MapTest, cut, program, wait_for
 from voxels import voxels_at, voxels_of_cloud, voxels_of_pcd
 
@@ -221,11 +223,13 @@ class ServicesTest(MapTest):
         listener = self.start_and_play(save_directory=str(self.target))
         clouds = [voxels_of_cloud(cloud, RESOLUTION) for cloud in listener.wait_for_clouds()]
         self.assertTrue(self.save('flight').success)
+        info = rospy.wait_for_message('/map/map_handle', MapInfo, timeout=PATIENCE)
+        middle = center([(low + high) // 2 for low, high in zip(info.window_min, info.window_max)])
         _, other = self.start_map({**PARAMETERS, 'save_directory': str(self.target)}, name='other')
 
         def load(name):
             rospy.wait_for_service('/other/load_map')
-            return rospy.ServiceProxy('/other/load_map', LoadMap)(name, Point())
+            return rospy.ServiceProxy('/other/load_map', LoadMap)(name, middle)
         missing = load('missing')
         self.assertFalse(missing.success)
         self.assertIn(f'{self.target}/missing.bt: cannot be read', missing.message)
@@ -234,7 +238,7 @@ class ServicesTest(MapTest):
         self.assertTrue(loaded.success, loaded.message)
         self.assertEqual(loaded.occupied, len(clouds[0]))
         self.assertGreater(loaded.free, loaded.occupied)
-        self.assertEqual(loaded.outside, 0)
+        self.assertEqual(loaded.outside, 0, 'the window is the same')
         wait_for(lambda: len(other.clouds) == 2 and other.clouds['inflated'].width,
                  'clouds of the loaded map')
         self.assertEqual([voxels_of_cloud(other.clouds[layer], RESOLUTION)
