@@ -9,6 +9,7 @@
 
 #include "fiimap/change_set.h"
 #include "fiimap/depth_projector.h"
+#include "fiimap/ignored_volumes.h"
 #include "fiimap/inflater.h"
 #include "fiimap/log_odds.h"
 #include "fiimap/mapper_config.h"
@@ -28,8 +29,13 @@ struct ScanPose {
   Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();
   /// Position of the vehicle in the world, metres: the window and the update range follow it.
   Eigen::Vector3d vehicle_W = Eigen::Vector3d::Zero();
+  /// Orientation of the vehicle, body to world: only body_size_x/y/z ask for it.
+  Eigen::Matrix3d R_W_B = Eigen::Matrix3d::Identity();
   /// Of the scan, nanoseconds.
   std::int64_t stamp_ns = 0;
+
+  /// The vehicle's body to world.
+  Eigen::Isometry3d T_W_B() const;
 };
 
 /// Wall-clock time of each stage of one update, milliseconds. The snapshot is made on demand, so
@@ -84,6 +90,9 @@ class Mapper {
   /// number of sensors.
   void reconfigure(const MapperConfig& config);
 
+  /// Ignores returns in spheres from now on; see IgnoredVolumes. A reset forgets them.
+  void ignore(const std::vector<IgnoredSphere>& spheres) { ignored_.add(spheres); }
+
   /// Makes all voxels of boxes, as far as they lie in the window, unknown, free or occupied,
   /// whatever was seen of them; the inflated layer is exact again on return. Free and occupied are
   /// as sure as log-odds get, so scans change them as they change what was seen many times. Before
@@ -127,6 +136,7 @@ class Mapper {
   VoxelLattice lattice_;
   SlidingGrid grid_;
   std::unique_ptr<Stages> stages_;
+  IgnoredVolumes ignored_;
 
   RangeData scan_;
   ScanMask mask_;

@@ -67,6 +67,11 @@ struct MapperConfig : ReadingConfig {
   double min_hit_cover = 0.05;
   bool round_rays = true;
 
+  double body_size_x = 0.0;
+  double body_size_y = 0.0;
+  double body_size_z = 0.0;
+  bool clear_body = false;
+
   double p_hit = 0.65;
   double p_miss = 0.30;
   double p_min = 0.12;
@@ -90,6 +95,7 @@ struct MapperConfig : ReadingConfig {
   Eigen::Vector3d localUpdateRange() const {
     return {local_update_range_x, local_update_range_y, local_update_range_z};
   }
+  Eigen::Vector3d bodySize() const { return {body_size_x, body_size_y, body_size_z}; }
   std::size_t sensorCount() const { return sensors.empty() ? 1 : sensors.size(); }
   /// How a sensor's readings are understood.
   const ReadingConfig& readingOf(std::size_t sensor) const {

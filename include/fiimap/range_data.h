@@ -87,6 +87,7 @@ struct ReadingCount {
   std::size_t too_near = 0;  ///< below min_depth or min_ray_length
   std::size_t infinite = 0;  ///< +inf
   std::size_t too_far = 0;   ///< beyond max_depth or max_ray_length
+  std::size_t ignored = 0;   ///< in the vehicle's body or in an ignored sphere; none of `returns`
 };
 
 }  // namespace fiimap

@@ -64,23 +64,34 @@ void refuseFixedChanges(MapperConfig from, MapperConfig to) {
 
 constexpr double kRotationTolerance = 1e-3;
 
+bool isRotation(const Eigen::Matrix3d& R) {
+  return R.allFinite() && R.isUnitary(kRotationTolerance) && R.determinant() > 0.0;
+}
+
 void requireValid(const ScanPose& pose, const VoxelLattice& lattice) {
   if (!lattice.canIndex(pose.vehicle_W) || !lattice.canIndex(pose.T_W_S.translation())) {
     throw std::invalid_argument("pose: position is not finite or too far from the origin");
   }
-  const Eigen::Matrix3d R = pose.T_W_S.linear();
-  if (!R.allFinite() || !R.isUnitary(kRotationTolerance) || R.determinant() < 0.0) {
+  if (!isRotation(pose.T_W_S.linear()) || !isRotation(pose.R_W_B)) {
     throw std::invalid_argument("pose: orientation is not a rotation");
   }
 }
 
 }  // namespace
 
+Eigen::Isometry3d ScanPose::T_W_B() const {
+  Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();
+  T_W_B.linear() = R_W_B;
+  T_W_B.translation() = vehicle_W;
+  return T_W_B;
+}
+
 Mapper::Mapper(const MapperConfig& config)
     : config_(validated(config)),
       lattice_(config.resolution),
       grid_(lattice_.sizeOf(config.mapSize())),
-      stages_(std::make_unique<Stages>(config)) {}
+      stages_(std::make_unique<Stages>(config)),
+      ignored_(config.bodySize()) {}
 
 Mapper::Stages::Stages(const MapperConfig& config)
     : ray_caster(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover,
@@ -117,6 +128,10 @@ ScanReport Mapper::integrate(const PointScan& points, const ScanPose& pose, std:
 /// The main loop of the map: everything between a scan in the world frame and exact inflation.
 ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   Stopwatch stopwatch;
+  report.readings.ignored = ignored_.removeReturns(pose.T_W_B(), pose.stamp_ns, &scan_);
+  report.readings.returns -= report.readings.ignored;
+  report.times_ms.project += stopwatch.lap();
+
   const VoxelIndex vehicle = lattice_.indexOf(pose.vehicle_W);
 
   changes_.clear();
@@ -131,6 +146,7 @@ ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   const VoxelIndex update_range = lattice_.sizeOf(config_.localUpdateRange());
   report.update_box = VoxelLattice::boxAround(vehicle, update_range).intersection(grid_.window());
   report.rays = stages_->ray_caster.cast(scan_, report.update_box, &mask_);
+  if (config_.clear_body) ignored_.freeBody(pose.T_W_B(), lattice_, &mask_);
   report.times_ms.raycast = stopwatch.lap();
 
   stages_->integrator.apply(mask_, &grid_, &changes_);
@@ -176,6 +192,7 @@ std::shared_ptr<const Snapshot> Mapper::snapshot() {
 
 void Mapper::reset() {
   grid_.clear();
+  ignored_.forgetSpheres();
   window_placed_ = false;
   stamp_ns_ = 0;
 }
@@ -209,7 +226,7 @@ std::int64_t Mapper::overwrite(const std::vector<VoxelBox>& boxes, Occupancy sta
     voxels += box.intersection(grid_.window()).volume();
     fiimap::overwrite(box, state, log_odds_, &grid_, &changes_);
   }
-  inflater_->update(changes_, &grid_);
+  stages_->inflater->update(changes_, &grid_);
   return voxels;
 }
 

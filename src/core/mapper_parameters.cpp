@@ -14,6 +14,7 @@ constexpr double kMaxCenter = 1e7;                              // m
 constexpr double kMaxRadius = 100.0;                            // m
 constexpr int kMaxReach = 64;                                   // voxels
 constexpr double kMaxWindowVoxels = 1e10;
+constexpr double kMaxBody = 10.0;   // m
 constexpr double kMaxMemory = 1e6;  // MB
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -87,6 +88,15 @@ std::vector<Parameter> occupancyParameters(MapperConfig* c) {
       flagParameter("round_rays", &c->round_rays,
                     "directions of rays are rounded, so that they share their way: faster"),
 
+      numberParameter("body_size_x", &c->body_size_x, 0.0, kMaxBody, "m",
+                      "extent of the vehicle's body, in which returns are ignored; 0: none"),
+      numberParameter("body_size_y", &c->body_size_y, 0.0, kMaxBody, "m",
+                      "extent of the vehicle's body, in which returns are ignored; 0: none"),
+      numberParameter("body_size_z", &c->body_size_z, 0.0, kMaxBody, "m",
+                      "extent of the vehicle's body, in which returns are ignored; 0: none"),
+      flagParameter("clear_body", &c->clear_body,
+                    "every scan sees the voxels in the vehicle's body as free"),
+
       numberParameter("p_hit", &c->p_hit, 0.501, 0.999, "",
                       "probability of occupancy after one hit (eq. 6)"),
       numberParameter("p_miss", &c->p_miss, 0.001, 0.499, "",
@@ -135,6 +145,10 @@ void MapperConfig::validate() const {
   for (const Parameter& parameter : mapperParameters(&copy)) parameter.set(parameter.get());
 
   for (std::size_t sensor = 0; sensor < sensorCount(); ++sensor) readingOf(sensor).validate();
+  const bool has_body = bodySize().minCoeff() > 0.0;
+  if (!has_body && (clear_body || bodySize().maxCoeff() > 0.0)) {
+    refuse("parameters body_size_x/y/z: all must be above 0, or all 0 and clear_body false");
+  }
   requireLess("p_occ", p_occ, "p_max", p_max);
   requireLess("p_min", p_min, "p_miss", p_miss);
   if (virtual_walls) {

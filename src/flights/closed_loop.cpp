@@ -96,6 +96,7 @@ class ClosedLoop {
     ScanPose pose;
     pose.T_W_S = vehicle_.T_O_B * T_B_C_;
     pose.vehicle_W = vehicle_.T_O_B.translation();
+    pose.R_W_B = vehicle_.T_O_B.linear();
     pose.stamp_ns = static_cast<std::int64_t>(std::llround(images_.front().time * 1e9));
     const ScanReport report = mapper_.integrate(
         image, {focal_length, focal_length, camera.center().x(), camera.center().y()}, pose);

@@ -6,11 +6,14 @@
 #include "fiimap/ros/map_edits.h"
 #include "fiimap/ros/map_files.h"
 #include "fiimap/ros/map_queries.h"
+#include "fiimap/ros/other_vehicles.h"
 
 namespace fiimap {
 namespace {
 
 const char* const kShuttingDown = "the node is shutting down";
+constexpr int kVehicleQueue = 100;
+constexpr double kWarningPeriod = 5.0;  // s
 
 /// Lets a function fill an answer, which says why when it throws.
 template <typename Response, typename Fill>
@@ -36,9 +39,12 @@ MapServices::MapServices(ros::NodeHandle node, const NodeConfig& config,
   servers_.push_back(node.advertiseService("clear_box", &MapServices::onClearBox, this));
   servers_.push_back(node.advertiseService("save_map", &MapServices::onSaveMap, this));
   servers_.push_back(node.advertiseService("load_map", &MapServices::onLoadMap, this));
+  other_vehicles_ =
+      node.subscribe("other_vehicles", kVehicleQueue, &MapServices::onOtherVehicles, this);
 }
 
 void MapServices::stop() {
+  other_vehicles_.shutdown();
   for (ros::ServiceServer& server : servers_) server.shutdown();
 }
 
@@ -55,6 +61,14 @@ template <typename Response, typename Edit>
 void MapServices::edit(Response* response, const Edit& edit) const {
   const bool is_done = mapping_->edit([&](Mapper* mapper) { *response = edit(mapper); });
   if (!is_done) throw std::runtime_error(kShuttingDown);
+}
+
+void MapServices::onOtherVehicles(const OtherVehiclesConstPtr& message) {
+  try {
+    mapping_->ignore(toIgnoredSpheres(*message, config_.map_frame));
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_THROTTLE_NAMED(kWarningPeriod, "map", "%s", error.what());
+  }
 }
 
 bool MapServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -4,6 +4,7 @@
 #include <fiimap/ClearBox.h>
 #include <fiimap/GetBox.h>
 #include <fiimap/LoadMap.h>
+#include <fiimap/OtherVehicles.h>
 #include <fiimap/QueryPoints.h>
 #include <fiimap/SaveMap.h>
 #include <ros/ros.h>
@@ -19,8 +20,9 @@
 
 namespace fiimap {
 
-/// The services of the mapping node. Queries are answered from the newest snapshot, edits are made
-/// between two scans. What is refused is so with the reason in the answer.
+/// What others ask of the mapping node: its services, and the topic ~other_vehicles. Queries are
+/// answered from the newest snapshot, edits are made between two scans. What is refused is so with
+/// the reason in the answer.
 class MapServices {
  public:
   /// \param node whose callbacks may wait and may run at once; \param mapping must outlive this
@@ -34,6 +36,7 @@ class MapServices {
   void stop();
 
  private:
+  void onOtherVehicles(const OtherVehiclesConstPtr& message);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onGetBox(GetBox::Request& request, GetBox::Response& response);
   bool onQueryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
@@ -54,6 +57,7 @@ class MapServices {
   MappingThread* mapping_;
   std::mutex files_mutex_;
   std::vector<ros::ServiceServer> servers_;
+  ros::Subscriber other_vehicles_;
 };
 
 }  // namespace fiimap

@@ -60,6 +60,10 @@ void MappingThread::post(std::function<void(ScanSynchronizer*)> input) {
   queue_.pushOther([this, input = std::move(input)] { input(&synchronizer_); });
 }
 
+void MappingThread::ignore(std::vector<IgnoredSphere> spheres) {
+  queue_.pushOther([this, spheres = std::move(spheres)] { mapper_.ignore(spheres); });
+}
+
 bool MappingThread::reset() {
   return doBetweenScans([this] { forget("reset was asked for"); });
 }

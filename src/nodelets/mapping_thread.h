@@ -70,6 +70,9 @@ class MappingThread : private ScanListener {
   /// Enqueues anything else that the synchronizer takes.
   void post(std::function<void(ScanSynchronizer*)> input);
 
+  /// Ignores returns in spheres, of scans that come later.
+  void ignore(std::vector<IgnoredSphere> spheres);
+
   /// Forgets the map and waits until that is done. \return false when the thread is stopping.
   bool reset();
   /// Lets a function work with the mapper between two scans and waits until it has; then readers

@@ -19,6 +19,7 @@ void setTimes(const StageTimes& times, double decode_ms, Statistics* message) {
 void setScan(const ScanReport& report, Statistics* message) {
   message->readings = report.readings.total;
   message->returns = report.readings.returns;
+  message->ignored = report.readings.ignored;
   message->invalid = report.readings.invalid;
   message->too_near = report.readings.too_near;
   message->infinite = report.readings.infinite;

@@ -129,6 +129,7 @@ SynchronizedScan SensorInput::takeFront(const Match& match) {
   scan.intrinsics = match.intrinsics;
   scan.pose.T_W_S = match.pose.T_W_S;
   scan.pose.vehicle_W = match.pose.T_W_B.translation();
+  scan.pose.R_W_B = match.pose.T_W_B.linear();
   scan.T_W_B = match.pose.T_W_B;
   scan.pose.stamp_ns = static_cast<std::int64_t>(front.stamp.toNSec());
   scan.pose_gap = match.pose.gap;

@@ -63,6 +63,10 @@ std::vector<FieldOfParameter> fields() {
       number("ray_end_cut", &C::ray_end_cut, 0.5),
       number("min_hit_cover", &C::min_hit_cover, 0.2),
       choice("round_rays", &C::round_rays, "false", false),
+      number("body_size_x", &C::body_size_x, 0.7),
+      number("body_size_y", &C::body_size_y, 0.6),
+      number("body_size_z", &C::body_size_z, 0.3),
+      choice("clear_body", &C::clear_body, "true", true),
       number("p_hit", &C::p_hit, 0.60),
       number("p_miss", &C::p_miss, 0.45),
       number("p_min", &C::p_min, 0.2),
@@ -243,6 +247,19 @@ TEST(MapperConfigTest, VirtualFloorMustBeBelowTheCeilingWhenThereAreWalls) {
   expectRefused([&](MapperConfig* c) { cross(c), c->virtual_walls = true; },
                 {"virtual_floor", "3.5", "virtual_ceiling"});
   expectAccepted([](MapperConfig* c) { c->virtual_walls = true; });
+}
+
+TEST(MapperConfigTest, TheBodyHasAnExtentOnAllAxesOrNone) {
+  const auto withBody = [](MapperConfig* c) {
+    c->body_size_x = c->body_size_y = 0.6;
+    c->body_size_z = 0.2;
+  };
+  expectAccepted(withBody);
+  expectAccepted([&](MapperConfig* c) { withBody(c), c->clear_body = true; });
+  expectRefused([&](MapperConfig* c) { withBody(c), c->body_size_y = 0.0; },
+                {"body_size_x/y/z", "all must be above 0"});
+  expectRefused([](MapperConfig* c) { c->clear_body = true; },
+                {"body_size_x/y/z", "clear_body false"});
 }
 
 TEST(MapperConfigTest, ConnectivityIsOneOfThree) {

@@ -198,6 +198,7 @@ const std::map<std::string, Settings>& settings() {
        {{{"slide_distance", "3.1"}}, {{"slide_distance", "0.4"}, {"map_size_x", "0.7"}}}},
       {"parameter_radius",
        {{{"inflation_radius", "6.5"}}, {{"inflation_radius", "0.7"}, {"resolution", "0.01"}}}},
+      {"parameter_body_size", {{{"body_size_x", "0.5"}}, {{"clear_body", "true"}}}},
       {"parameter_window",
        {{{"map_size_x", "10000"}, {"map_size_y", "10000"}, {"map_size_z", "10000"}}}},
       {"parameter_body_frame",

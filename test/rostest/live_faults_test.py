@@ -13,6 +13,7 @@ from sensor_msgs.msg import PointCloud2
 from xmlrpc.client import Binary
 
 import make_bag_variants
+from fiimap.msg import OtherVehicles
 from fiimap.srv import (
     CastRays, CastRaysRequest, ClearBox, GetBox, LoadMap, QueryPoints, SaveMap)
 from geometry_msgs.msg import Point
@@ -124,6 +125,15 @@ class LiveFaultsTest(VehicleTest):
         damaged.write_bytes(b'# Octomap OcTree binary file\nid OcTree\nsize 9\nres 0.05\ndata\n\xff')
         self.assert_refused('live_request_damaged_map', 'load_map', LoadMap, 'damaged', origin)
         damaged.unlink()
+
+        self.row('live_request_vehicles')
+        others = rospy.Publisher('/map/other_vehicles', OtherVehicles, queue_size=1)
+        wait_for(others.get_num_connections, 'the subscriber of other vehicles')
+        message = OtherVehicles()
+        message.header.frame_id = 'elsewhere'
+        others.publish(message)
+        told = self.rows['live_request_vehicles']['says'][0]
+        wait_for(lambda: told in self.node.output(), told)
         self.fly_well()
 
     def check_saving(self, maps):

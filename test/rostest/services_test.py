@@ -3,13 +3,15 @@
 import math
 import tempfile
 
+import rosbag
 import rospy
 import rostest
+from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
 import make_bag_variants
 from geometry_msgs.msg import Point
-from fiimap.msg import MapInfo
+from fiimap.msg import MapInfo, OtherVehicle, OtherVehicles
 from fiimap.srv import (
     CastRays, CastRaysRequest, ClearBox, ClearBoxRequest, GetBox, GetBoxResponse, LoadMap, QueryPoints,
     SaveMap)
@@ -256,6 +258,27 @@ class ServicesTest(MapTest):
     def test_get_box_refuses_before_the_first_scan_and_what_is_no_box(self):
         self.start_map(PARAMETERS)
         self.assertIn('no map yet', self.call('get_box', GetBox, Point(), Point()).message)
+
+    def test_returns_on_other_vehicles_and_on_the_body_are_ignored(self):
+        listener = self.start_and_play()
+        returns = listener.newest().returns
+        self.assertEqual(listener.newest().ignored, 0)
+        with rosbag.Bag(str(self.bag)) as bag:
+            start = rospy.Time(bag.get_start_time())
+        _, blind = self.start_map(PARAMETERS, name='blind')
+        publisher = rospy.Publisher('/blind/other_vehicles', OtherVehicles, queue_size=1)
+        wait_for(publisher.get_num_connections, 'the subscriber of other vehicles')
+        everywhere = OtherVehicle(radius=100.0, lifetime=rospy.Duration(60.0))
+        publisher.publish(OtherVehicles(header=Header(stamp=start, frame_id='world'),
+                                        vehicles=[everywhere]))
+        _, large = self.start_map({**PARAMETERS, 'body_size_x': 10.0, 'body_size_y': 10.0,
+                                   'body_size_z': 10.0, 'clear_body': True}, name='large')
+        self.play(self.bag, '--rate=2')
+        newest = blind.wait_for_integrated(SCANS)
+        self.assertEqual((newest.ignored, newest.returns, newest.occupied), (returns, 0, 0))
+        newest = large.wait_for_integrated(SCANS)
+        self.assertEqual(newest.ignored + newest.returns, returns)
+        self.assertGreater(newest.ignored, 0)
 
     def test_reset_forgets_and_mapping_goes_on(self):
         listener = self.start_and_play(save_directory=str(self.target))
