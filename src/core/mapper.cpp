@@ -224,7 +224,7 @@ std::int64_t Mapper::overwrite(const std::vector<VoxelBox>& boxes, Occupancy sta
   changes_.clear();
   for (const VoxelBox& box : boxes) {
     voxels += box.intersection(grid_.window()).volume();
-    fiimap::overwrite(box, state, log_odds_, &grid_, &changes_);
+    fiimap::overwrite(box, state, logOdds(), &grid_, &changes_);
   }
   stages_->inflater->update(changes_, &grid_);
   return voxels;

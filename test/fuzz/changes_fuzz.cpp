@@ -68,7 +68,10 @@ class Link {
     if (bytes_.integer(0, 15) == 0) mapper_.reset();
     if (bytes_.integer(0, 7) == 0) {
       element_ = takeElement();
-      mapper_.setInflation(element_.radius(), element_.shape);
+      MapperConfig config = mapper_.config();
+      config.inflation_radius = element_.radius();
+      config.inflation_shape = element_.shape;
+      mapper_.reconfigure(config);
     }
     const double reach = bytes_.integer(0, 7) == 0 ? 1e6 : bytes_.flag() ? 3.0 : 0.2;
     ScanPose pose;
