@@ -7,8 +7,11 @@ namespace fiimap {
 // A bit column is an array of 64-bit words; bit i of word w stands for voxel 64 w + i of a
 // z-column.
 
+///@{
+/// Bits of a word, and the shift that divides by them.
 constexpr int kWordShift = 6;
 constexpr int kWordBits = 1 << kWordShift;
+///@}
 
 /// Number of set bits. In sums of ever more bits, because without an instruction for it compilers
 /// call a function that looks up each byte.

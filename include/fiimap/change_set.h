@@ -21,9 +21,11 @@ struct ChangeSet {
 
   /// The paper's change score (Section 5.2.3).
   std::size_t score() const { return lower.size() + raise.size(); }
+  /// Whether nothing changed and the window did not move.
   bool empty() const {
     return lower.empty() && raise.empty() && forgotten.empty() && entered.empty();
   }
+  /// Empties all lists and keeps their memory.
   void clear() {
     lower.clear();
     raise.clear();

@@ -14,7 +14,10 @@ namespace fiimap {
 
 /// Pinhole camera without distortion, pixels.
 struct PinholeIntrinsics {
+  ///@{
+  /// Focal length and principal point along the image's x and y.
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+  ///@}
 
   /// Finite, with positive focal lengths.
   bool valid() const;
@@ -22,22 +25,24 @@ struct PinholeIntrinsics {
 
 /// View of a depth image in native byte order; does not own its pixels.
 struct DepthImage {
+  /// What a pixel is.
   enum class Format {
     kUint16,   ///< units of depth_scale (REP 118: millimetres); 0 and 65535 are invalid
     kFloat32,  ///< metres; NaN and values <= 0 are invalid, +inf is "farther than the sensor sees"
   };
 
-  const void* data = nullptr;
-  Format format = Format::kUint16;
-  int width = 0;
-  int height = 0;
-  std::size_t row_bytes = 0;  ///< distance between rows, >= width * bytes per pixel
+  const void* data = nullptr;       ///< first pixel of the first row; need not be aligned
+  Format format = Format::kUint16;  ///< of all pixels
+  int width = 0;                    ///< pixels
+  int height = 0;                   ///< pixels
+  std::size_t row_bytes = 0;        ///< distance between rows, >= width * bytes per pixel
 };
 
 /// Back-projects depth images (eq. 3) on a grid of pixels (eq. 4-5).
 /// Not thread-safe (keeps scratch memory).
 class DepthProjector {
  public:
+  /// \param config validated.
   explicit DepthProjector(const MapperConfig& config);
 
   /// Fills `scan` anew with the image's rays.

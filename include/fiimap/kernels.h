@@ -23,20 +23,20 @@ struct ColumnLine {
   float minor_direction;  ///< along the minor axis per t
   float minor_border;     ///< from a cell's low border to the one that the ray leaves by, from
                           ///< the origin: 0 or 1, less minor_origin
-  float t_per_minor;
-  int last_minor_cell;  ///< of the box
-  int first_column;     ///< offset of the first slab's column of minor cell 0
-  int major_offset;     ///< to the next slab's
-  int minor_offset;     ///< to the next minor cell's
-  int minor_step;       ///< +1 or -1
+  float t_per_minor;      ///< t per distance along the minor axis
+  int last_minor_cell;    ///< of the box
+  int first_column;       ///< offset of the first slab's column of minor cell 0
+  int major_offset;       ///< to the next slab's
+  int minor_offset;       ///< to the next minor cell's
+  int minor_step;         ///< +1 or -1
 };
 
 /// The columns that a ray crosses, nearest first. It is in column k from t[k] to t[k + 1].
 struct ColumnWalk {
-  std::vector<std::int32_t> column;  ///< offset of its lowest word
-  std::vector<float> t;
+  std::vector<std::int32_t> column;         ///< offset of its lowest word
+  std::vector<float> t;                     ///< one more than columns
   std::vector<std::int32_t> first_of_slab;  ///< index in `column`
-  int size = 0;
+  int size = 0;                             ///< columns
 
   /// Makes room for what a kernel may write.
   void reserve(int slabs);
@@ -47,49 +47,66 @@ struct ColumnWalk {
 struct RayRuns {
   const std::int32_t* column;  ///< offset of its lowest word
   const float* t;              ///< rays are in column k from t[k] to t[k + 1]
-  int columns;
-  float origin_z;
-  const float *rise_low, *rise_high;  ///< per run, of its lowest and highest ray: voxel edges per t
-  int runs;
+  int columns;                 ///< of this part
+  float origin_z;              ///< of the rays, voxel edges
+  ///@{
+  /// Of each run's lowest and highest ray: voxel edges per t.
+  const float *rise_low, *rise_high;
+  ///@}
+  int runs;  ///< how many
 };
 
 /// Samples of one row of a depth image, and the parts of their rays at unit depth (world axes): the
 /// ray of sample i is (ray_x[i] + row_x, ...), the square of its length length_2[i] + row_length_2.
 struct DepthRow {
   const float* depth;  ///< metres; NaN where no distance was measured
-  int samples;
+  int samples;         ///< in the row
+  ///@{
+  /// Part of a ray's coordinate, or of its squared length.
   const float *ray_x, *ray_y, *ray_z, *length_2;
   float row_x, row_y, row_z, row_length_2;
-  float min_depth, max_depth, min_length_2, max_length_2;  ///< of returns
+  ///@}
+  ///@{
+  /// Of returns: metres, square metres.
+  float min_depth, max_depth, min_length_2, max_length_2;
+  ///@}
 };
 
 /// What a row of samples was split into.
 struct RowCount {
-  int returns = 0;
-  int others = 0;  ///< listed
+  int returns = 0;  ///< written
+  int others = 0;   ///< listed
 };
 
 /// Points relative to the rays' origin, metres, finite also in voxel edges, and the box in which
 /// their rays end. The origin lies in the box.
 struct EndPoints {
+  ///@{
+  /// Coordinates, metres.
   const float *x, *y, *z;
-  int count;
-  float to_voxels;
-  float origin[3];  ///< voxel edges, in the box
-  std::int32_t size[3];
+  ///@}
+  int count;             ///< points
+  float to_voxels;       ///< voxel edges per metre
+  float origin[3];       ///< voxel edges, in the box
+  std::int32_t size[3];  ///< of the box, voxels
 };
 
 /// Voxels of the box where rays end. Rays that leave the box end in the last voxel of it that they
 /// cross; they have kLeavesBox in `z`. Those that never enter it end nowhere: `z` is kMissesBox.
 struct RayEnds {
-  static constexpr std::int32_t kLeavesBox = 1 << 24;  ///< more than any height
-  static constexpr std::int32_t kMissesBox = 2 * kLeavesBox;
+  static constexpr std::int32_t kLeavesBox = 1 << 24;         ///< more than any height
+  static constexpr std::int32_t kMissesBox = 2 * kLeavesBox;  ///< likewise
+  ///@{
+  /// Coordinates in the box, voxels.
   std::vector<std::int32_t> x, y, z;
+  ///@}
   /// The points first[k] to first[k + 1] - 1 end in voxel k.
   std::vector<std::int32_t> first;
-  int size = 0;
+  int size = 0;  ///< voxels
+  ///@{
   /// Smallest and largest x and y of all that end somewhere; of none, the first is the larger.
   std::int32_t low[2], high[2];
+  ///@}
 
   /// Begins an empty list, with room for what a kernel may write.
   void begin(int count);
@@ -97,9 +114,9 @@ struct RayEnds {
 
 /// A bit for each voxel of a box: x-major columns of words, bit 0 of the first is the lowest voxel.
 struct VoxelBits {
-  const std::uint64_t* words;
-  std::int32_t size_y;  ///< columns of the same x
-  std::int32_t words_per_column;
+  const std::uint64_t* words;     ///< of all columns
+  std::int32_t size_y;            ///< columns of the same x
+  std::int32_t words_per_column;  ///< >= 1
 };
 
 /// A cube around the origin of rays, with a grid of cells of a voxel edge on each side face: cells
@@ -116,7 +133,7 @@ struct DirectionCube {
 
 /// Rays to the centres of some voxels, as the cube sees them.
 struct CubeRays {
-  static constexpr std::int32_t kStraight = -1;
+  static constexpr std::int32_t kStraight = -1;  ///< in `slice`
   /// Column of cells that the ray crosses, of all faces side by side, side() each; kStraight when
   /// it crosses none.
   std::vector<std::int32_t> slice;
@@ -132,13 +149,16 @@ struct CubeRays {
 /// A word of each column of a tile at one x, side by side along y. Aligned, so that no vector
 /// crosses a border of cache lines.
 struct alignas(64) Strip {
-  static constexpr int kColumns = 32;
-  std::uint64_t words[kColumns];
+  static constexpr int kColumns = 32;  ///< of a tile at one x
+  std::uint64_t words[kColumns];       ///< by y in the tile
 };
 
 /// Columns first..end-1 of a strip. Kernels may write the others, too.
 struct StripSpan {
+  ///@{
+  /// Columns, 0 to Strip::kColumns.
   int first, end;
+  ///@}
 };
 
 /// Dilation of columns by a structuring element, as Horner's scheme along z: to nothing, add the
@@ -147,8 +167,10 @@ struct StripSpan {
 struct ColumnDilation {
   int words;      ///< of a column
   int word_step;  ///< from a word of the sources to the next one, strips
+  ///@{
   /// Ring masks: all voxels but the window's top or bottom, whose bits leave it.
   std::vector<std::uint64_t> not_top, not_bottom;
+  ///@}
   std::vector<std::int32_t> sources;  ///< strips to add, counted from that of the row itself
   std::vector<int> sources_end;       ///< of each half height, the largest first
 };
@@ -156,7 +178,7 @@ struct ColumnDilation {
 /// The inner loops of the map, once for each instruction set that the machine may have. All give
 /// the same bits: they compute the same single-precision expressions, without contraction.
 struct Kernels {
-  const char* name;
+  const char* name;  ///< as FIIMAP_SIMD names them
 
   /// Depth in metres of every `step`-th 16-bit pixel (need not be aligned); NaN for 0 and 65535.
   void (*readDepths)(const std::uint8_t* pixels, int step, int samples, float scale, float* depth);

@@ -18,6 +18,7 @@ class MapHandle {
   /// \param id unique name of the map in the process: the mapping nodelet's full name.
   explicit MapHandle(const std::string& id) : id_(id) {}
 
+  /// As given to the constructor.
   const std::string& id() const { return id_; }
 
   /// The newest snapshot; null before the first scan and after a reset until the next scan.

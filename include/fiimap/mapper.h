@@ -21,6 +21,7 @@
 #include "fiimap/sliding_grid.h"
 #include "fiimap/snapshot.h"
 
+/// Occupancy mapping. What is not under fiimap/ros/ knows no ROS.
 namespace fiimap {
 
 /// Where a scan was taken.
@@ -41,20 +42,25 @@ struct ScanPose {
 /// Wall-clock time of each stage of one update, milliseconds. The snapshot is made on demand, so
 /// its time is filled in by who asks for it.
 struct StageTimes {
+  ///@{
+  /// Stage of Mapper::integrate(), in this order; the last is Mapper::snapshot().
   double project = 0.0, slide = 0.0, raycast = 0.0, fuse = 0.0, inflate = 0.0, snapshot = 0.0;
+  ///@}
+  /// All of them.
   double total() const { return project + slide + raycast + fuse + inflate + snapshot; }
 };
 
 /// What one scan did.
 struct ScanReport {
-  ReadingCount readings;
-  RayCount rays;
-  std::size_t raise = 0;
-  std::size_t lower = 0;
-  std::size_t forgotten = 0;
-  VoxelBox update_box;  ///< voxels that it could change
-  StageTimes times_ms;
+  ReadingCount readings;      ///< of the sensor, by kind
+  RayCount rays;              ///< distinct ones that were cast
+  std::size_t raise = 0;      ///< voxels that became free; see ChangeSet
+  std::size_t lower = 0;      ///< voxels that became occupied
+  std::size_t forgotten = 0;  ///< occupied voxels that the window left behind
+  VoxelBox update_box;        ///< voxels that it could change
+  StageTimes times_ms;        ///< but for the snapshot
 
+  /// The paper's: see ChangeSet::score().
   std::size_t changeScore() const { return raise + lower; }
 };
 
@@ -72,6 +78,7 @@ class Mapper {
   /// for a sensor that there is not.
   ScanReport integrate(const DepthImage& image, const PinholeIntrinsics& intrinsics,
                        const ScanPose& pose, std::size_t sensor = 0);
+  /// The same of points.
   ScanReport integrate(const PointScan& points, const ScanPose& pose, std::size_t sensor = 0);
 
   /// An immutable view of the map as it is now, with the stamp of the newest scan.
@@ -107,10 +114,13 @@ class Mapper {
   void placeWindow(const Eigen::Vector3d& vehicle_W);
   bool hasWindow() const { return window_placed_; }
 
+  /// In effect.
   const MapperConfig& config() const { return config_; }
+  /// The probabilities of the configuration as the map adds them.
   const LogOdds& logOdds() const { return stages_->integrator.logOdds(); }
   /// For tests, evaluation and statistics.
   const SlidingGrid& grid() const { return grid_; }
+  /// Memory of grid and scan now, bytes; without what only snapshots hold.
   std::size_t memoryBytes() const;
 
  private:

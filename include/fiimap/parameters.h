@@ -17,11 +17,11 @@ enum class ValueKind { kNumber, kInteger, kFlag, kText };
 
 /// One setting of a configuration: its description and typed access to its field through text.
 struct Parameter {
-  std::string name;
-  std::string unit;     ///< "m", "voxels", ... or "" where there is none
-  std::string allowed;  ///< human-readable range or list of values
-  std::string meaning;
-  std::function<std::string()> get;
+  std::string name;                  ///< as users write it
+  std::string unit;                  ///< "m", "voxels", ... or "" where there is none
+  std::string allowed;               ///< human-readable range or list of values
+  std::string meaning;               ///< one sentence without full stop
+  std::function<std::string()> get;  ///< the field's value now
   /// Parses and range-checks; throws std::invalid_argument naming parameter, value and range.
   std::function<void(const std::string&)> set;
 
@@ -34,6 +34,7 @@ struct Parameter {
 /// The shortest text that reads back as the same number.
 std::string toText(double value);
 
+///@{
 /// Builders of Parameters bound to a field, which must outlive them.
 Parameter numberParameter(const std::string& name, double* field, double min, double max,
                           const std::string& unit, const std::string& meaning);
@@ -41,7 +42,9 @@ Parameter integerParameter(const std::string& name, int* field, int min, int max
                            const std::string& unit, const std::string& meaning);
 Parameter flagParameter(const std::string& name, bool* field, const std::string& meaning);
 Parameter textParameter(const std::string& name, std::string* field, const std::string& meaning);
+///@}
 
+/// The same of an enumeration.
 /// \param names the text of each enumerator, in the order of their values 0, 1, 2, ...
 template <typename Enum>
 Parameter choiceParameter(const std::string& name, Enum* field,

@@ -13,32 +13,45 @@ namespace fiimap {
 /// room for kVectorRoom more. Keeps its memory when it shrinks.
 class PointList {
  public:
+  ///@{
+  /// As of a std::vector.
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   Eigen::Vector3f operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  ///@}
 
   /// Reads points one by one, for range-based for loops.
   class Iterator {
    public:
+    ///@{
+    /// As of a forward iterator.
     Iterator(const PointList& list, std::size_t i) : list_(list), i_(i) {}
     Eigen::Vector3f operator*() const { return list_[i_]; }
     Iterator& operator++() { return ++i_, *this; }
     bool operator!=(const Iterator& other) const { return i_ != other.i_; }
+    ///@}
 
    private:
     const PointList& list_;
     std::size_t i_;
   };
+  ///@{
+  /// The first point and the end.
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size_}; }
+  ///@}
 
+  ///@{
+  /// The points' coordinates along one axis: size() and kVectorRoom more, which hold anything.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
   const float* z() const { return z_.data(); }
   float* x() { return x_.data(); }
   float* y() { return y_.data(); }
   float* z() { return z_.data(); }
+  ///@}
 
+  /// Removes all points.
   void clear() { size_ = 0; }
   /// Changes the size; new points hold anything.
   void resize(std::size_t size) {
@@ -47,6 +60,7 @@ class PointList {
     }
     size_ = size;
   }
+  /// Adds a point.
   void push_back(const Eigen::Vector3f& point) {
     resize(size_ + 1);
     x_[size_ - 1] = point.x();
@@ -72,6 +86,7 @@ struct RangeData {
   /// Returns that a surface gives which fills a steradian of the view; 0 when not known.
   double returns_per_steradian = 0.0;
 
+  /// Removes all rays; the origin stays.
   void clear() {
     returns.clear();
     misses.clear();

@@ -12,6 +12,7 @@
 
 namespace fiimap {
 
+/// How many rays of a scan were cast, of those that differ.
 struct RayCount {
   std::size_t hits = 0;    ///< distinct voxels with a return
   std::size_t misses = 0;  ///< distinct voxels where a ray without return ends

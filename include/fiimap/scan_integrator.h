@@ -16,6 +16,7 @@ namespace fiimap {
 /// Not thread-safe.
 class ScanIntegrator {
  public:
+  /// \param log_odds what a hit and a miss add, and the limits.
   explicit ScanIntegrator(const LogOdds& log_odds) : log_odds_(log_odds), kernels_(kernels()) {}
 
   const LogOdds& logOdds() const { return log_odds_; }

@@ -16,14 +16,18 @@ namespace fiimap {
 /// words; bit 0 is the lowest voxel of the box. Coordinates are relative to box().min.
 class ScanMask {
  public:
+  /// A bit per voxel: a ray returned from it, ended in it without a return, passed it.
   enum Layer { kHit, kMissEnd, kFree };
-  static constexpr int kLayerCount = 3;
+  static constexpr int kLayerCount = 3;  ///< of Layer
 
   /// Starts a scan over `box`; all bits are zero. Keeps its memory from scan to scan.
   void begin(const VoxelBox& box);
 
+  /// Voxels of the map that the mask is over.
   const VoxelBox& box() const { return box_; }
+  /// Of the box, voxels.
   const VoxelIndex& size() const { return size_; }
+  /// Words of a column of a layer.
   int wordsPerColumn() const { return words_; }
   /// Where the words of a column begin within a layer.
   std::int32_t columnOffset(int x, int y) const { return (x * size_.y() + y) * words_; }
@@ -34,14 +38,18 @@ class ScanMask {
     return {column / size_.y(), column % size_.y(), word % words_ * kWordBits + bit};
   }
 
+  ///@{
+  /// The words of a column.
   std::uint64_t* column(Layer layer, int x, int y) {
     return bits_[layer].data() + columnOffset(x, y);
   }
   const std::uint64_t* column(Layer layer, int x, int y) const {
     return bits_[layer].data() + columnOffset(x, y);
   }
+  ///@}
   /// All words of a layer.
   VoxelBits bits(Layer layer) const { return {bits_[layer].data(), size_.y(), words_}; }
+  /// Whether a voxel is marked.
   bool test(Layer layer, const VoxelIndex& v) const {
     return (column(layer, v.x(), v.y())[v.z() / kWordBits] >> (v.z() % kWordBits)) & 1u;
   }
@@ -50,6 +58,7 @@ class ScanMask {
     const std::uint64_t* words = column(layer, x, y);
     return std::any_of(words, words + words_, [](std::uint64_t word) { return word != 0; });
   }
+  /// Marks a voxel.
   void mark(Layer layer, const VoxelIndex& v) {
     if (layer != kFree) {
       markEnd(layer, columnOffset(v.x(), v.y()) + v.z() / kWordBits, v.z() % kWordBits);
@@ -68,6 +77,7 @@ class ScanMask {
   /// Columns that may hold bits: [min, max) on x and y.
   const VoxelBox& touched() const { return touched_; }
 
+  /// Memory of the layers now, bytes.
   std::size_t memoryBytes() const {
     return kLayerCount * bits_[kFree].size() * sizeof(std::uint64_t);
   }

@@ -14,12 +14,15 @@ namespace fiimap {
 
 /// Bit layers of the grid: one bit per voxel each.
 enum class Plane { kKnown, kOccupied, kInflated };
+/// Number of planes.
 constexpr int kPlaneCount = 3;
 
-/// Columns are grouped into square tiles of this many columns a side.
+///@{
+/// Columns are grouped into square tiles of this many columns a side; the shift divides by them.
 constexpr int kTileShift = 5;
 constexpr int kTileSide = 1 << kTileShift;
 constexpr int kTileColumns = kTileSide * kTileSide;
+///@}
 
 /// Where the bits of a voxel column are: a ring of 64-bit words, a power of two of them, in which
 /// the voxel at height z has the bit z mod (64 words), whatever the window. So nothing moves when
@@ -31,7 +34,9 @@ class ColumnLayout {
     while (bits() < height) words_ *= 2;
   }
 
+  /// Words of a column.
   int words() const { return words_; }
+  /// Voxels that a column has room for, >= its height.
   int bits() const { return words_ * kWordBits; }
   /// Bit of height z within the column.
   int bitOf(int z) const { return z & (bits() - 1); }
@@ -52,9 +57,11 @@ inline int columnInTile(int x, int y) {
 /// snapshots and copied before the first change after one (copy on write).
 using Tile = std::uint64_t[];
 
+/// Words of one plane of a tile.
 inline std::size_t planeWords(const ColumnLayout& layout) {
   return static_cast<std::size_t>(kTileColumns) * layout.words();
 }
+/// Words of a tile, all planes.
 inline std::size_t tileWords(const ColumnLayout& layout) {
   return kPlaneCount * planeWords(layout);
 }
@@ -67,13 +74,14 @@ inline std::size_t offsetInTile(Plane plane, int x, int y, const ColumnLayout& l
 /// share a slot, so that addressing is a shift and a mask (eq. 2, wrapped circularly).
 class TileRing {
  public:
-  /// \param columns window size along x and y.
+  /// \param columns_x, columns_y window size, voxels.
   TileRing(int columns_x, int columns_y);
 
   /// Largest number of tiles that a window touches along an axis: one that starts in the middle of
   /// a tile touches one tile more than its size suggests.
   static int tilesAcross(int columns) { return (columns + kTileSide - 2) / kTileSide + 1; }
 
+  /// Number of slots, a power of two.
   int slots() const { return (mask_x_ + 1) * (mask_y_ + 1); }
   /// Slot of the tile that holds column (x, y).
   int slotOf(int x, int y) const {
@@ -97,8 +105,11 @@ class SlidingGrid {
   /// \param size window size in voxels, each >= 1.
   explicit SlidingGrid(const VoxelIndex& size);
 
+  /// Voxels that the grid covers.
   const VoxelBox& window() const { return window_; }
+  /// Where a column's bits are.
   const ColumnLayout& layout() const { return layout_; }
+  /// Where a column's tile is.
   const TileRing& ring() const { return ring_; }
 
   /// Moves the window so that its lowest corner is `min`. Voxels left behind are forgotten. Appends
@@ -110,6 +121,7 @@ class SlidingGrid {
   /// Clears one plane in the whole window.
   void clearPlane(Plane plane);
 
+  /// One bit. False for voxels outside the window.
   bool test(Plane plane, const VoxelIndex& v) const;
   /// Sets one bit. Voxels outside the window are ignored.
   void set(Plane plane, const VoxelIndex& v, bool value);

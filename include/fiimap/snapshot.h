@@ -42,8 +42,8 @@ struct RayHit {
 
 /// Heights beyond which queries see an obstacle whatever was measured, metres in the map frame.
 struct VirtualWalls {
-  double floor = -std::numeric_limits<double>::infinity();
-  double ceiling = std::numeric_limits<double>::infinity();
+  double floor = -std::numeric_limits<double>::infinity();   ///< m
+  double ceiling = std::numeric_limits<double>::infinity();  ///< m
 };
 
 /// Voxels that follow each other along z.
@@ -57,23 +57,28 @@ struct VoxelRun {
 /// someone holds it, even after the mapper is gone.
 class Snapshot {
  public:
+  /// What the snapshot is of.
   struct Info {
     std::int64_t stamp_ns = 0;   ///< of the newest scan in it
     std::uint64_t sequence = 0;  ///< 1, 2, 3, ... of one mapper; a reset does not restart it
     double resolution = 0.0;     ///< m
-    VoxelBox window;
-    ElementShape inflation_shape = ElementShape::kBall;
-    double inflation_radius = 0.0;  ///< m
-    VirtualWalls walls;
+    VoxelBox window;             ///< what the map covers
+    ElementShape inflation_shape = ElementShape::kBall;  ///< see StructuringElement
+    double inflation_radius = 0.0;                       ///< m
+    VirtualWalls walls;                                  ///< infinitely far where there are none
   };
 
   /// Shares the tiles of the grid as they are now.
   Snapshot(SlidingGrid* grid, const Info& info);
 
+  /// As given to the constructor.
   const Info& info() const { return info_; }
+  /// Turns points into voxels and back.
   const VoxelLattice& lattice() const { return lattice_; }
+  /// Voxels that the map covers.
   const VoxelBox& window() const { return info_.window; }
 
+  ///@{
   /// State of a voxel or of the voxel at a point (metres, map frame). A voxel whose centre, or a
   /// point which, lies beyond a virtual wall is occupied and inflated, if it is in the window.
   /// Points that are not finite are outside.
@@ -81,6 +86,7 @@ class Snapshot {
   Occupancy occupancy(const Eigen::Vector3d& point_W) const;
   Inflation inflation(const VoxelIndex& v) const;
   Inflation inflation(const Eigen::Vector3d& point_W) const;
+  ///@}
 
   /// Whether a voxel counts as an obstacle.
   bool isObstacle(const VoxelIndex& v, const ObstacleRules& rules) const;

@@ -7,6 +7,7 @@
 
 namespace fiimap {
 
+/// Shape of a StructuringElement.
 enum class ElementShape { kBall, kCube, kDiamond };
 
 /// The set of voxel offsets by which an obstacle is inflated:
@@ -24,6 +25,7 @@ class StructuringElement {
   /// \param radius metres, >= 0; \param resolution metres per voxel, > 0.
   StructuringElement(ElementShape shape, double radius, double resolution);
 
+  /// As given to the constructor.
   ElementShape shape() const { return shape_; }
   /// Radius as asked for, metres.
   double radius() const { return radius_; }
@@ -31,6 +33,7 @@ class StructuringElement {
   int reach() const { return reach_; }
   /// Largest h with (dx, dy, h) in the element; -1 when (dx, dy) is outside its footprint.
   int halfHeight(int dx, int dy) const;
+  /// Whether an offset is in the element.
   bool contains(const VoxelIndex& offset) const;
   /// All offsets, the zero offset included, in lexicographic order.
   const std::vector<VoxelIndex>& offsets() const { return offsets_; }

@@ -12,23 +12,32 @@ using VoxelIndex = Eigen::Vector3i;
 
 /// Half-open box of voxels [min, max).
 struct VoxelBox {
-  VoxelIndex min = VoxelIndex::Zero();
-  VoxelIndex max = VoxelIndex::Zero();
+  VoxelIndex min = VoxelIndex::Zero();  ///< lowest voxel inside, on each axis
+  VoxelIndex max = VoxelIndex::Zero();  ///< lowest voxel above the box, on each axis
 
+  /// Voxels along each axis; of an empty box, some are not above 0.
   VoxelIndex size() const { return max - min; }
+  /// Whether no voxel is inside.
   bool empty() const { return (max.array() <= min.array()).any(); }
+  /// Number of voxels.
   std::int64_t volume() const;
+  /// Whether a voxel is inside.
   bool contains(const VoxelIndex& v) const {
     return (v.array() >= min.array()).all() && (v.array() < max.array()).all();
   }
+  /// The same, whatever z is.
   bool containsColumn(int x, int y) const {
     return x >= min.x() && x < max.x() && y >= min.y() && y < max.y();
   }
+  /// What lies in both; may be empty.
   VoxelBox intersection(const VoxelBox& other) const {
     return {min.cwiseMax(other.min), max.cwiseMin(other.max)};
   }
+  ///@{
+  /// Whether the corners are the same.
   bool operator==(const VoxelBox& other) const { return min == other.min && max == other.max; }
   bool operator!=(const VoxelBox& other) const { return !(*this == other); }
+  ///@}
 };
 
 /// Largest integer that is not above the value, which must be a number in the range of int. Without
@@ -47,6 +56,7 @@ class VoxelLattice {
   explicit VoxelLattice(double resolution)
       : resolution_(resolution), voxels_per_metre_(1.0 / resolution) {}
 
+  /// Edge length of a voxel, m.
   double resolution() const { return resolution_; }
 
   /// A point (metres) in voxels: the voxel that holds it is the floor.

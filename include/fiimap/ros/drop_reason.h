@@ -24,6 +24,7 @@ enum class DropReason {
   kBadCloud,       ///< not one each of x y z of type float32, or sizes contradict each other
   kOverload,       ///< newer scans came before the map had time for it
 };
+/// Number of reasons.
 constexpr int kDropReasonCount = static_cast<int>(DropReason::kOverload) + 1;
 
 /// Name for messages, JSON and diagnostics, for instance "pose_timeout".
@@ -34,8 +35,8 @@ std::string remedyFor(DropReason reason, const std::string& sensor = "");
 
 /// One dropped scan.
 struct Drop {
-  DropReason reason = DropReason::kZeroStamp;
-  std::string detail;    ///< what was found, with the values
+  DropReason reason = DropReason::kZeroStamp;  ///< why
+  std::string detail;                          ///< what was found, with the values
   std::string sensor{};  ///< name of the scan's; empty where there is one only
 
   /// "name: detail; remedy", with the sensor before the detail where it has a name.
@@ -45,10 +46,13 @@ struct Drop {
 /// Data that cannot be used; the scan or pose that holds it is dropped.
 class InputError : public std::runtime_error {
  public:
+  /// \param detail what was found, with the values.
   InputError(DropReason reason, const std::string& detail)
       : std::runtime_error(detail), reason_(reason) {}
 
+  /// What is wrong with the data.
   DropReason reason() const { return reason_; }
+  /// The drop of what holds the data.
   Drop drop() const { return {reason_, what(), ""}; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace fiimap {
 
-/// Writes <name>_occupied.pcd, <name>_inflated.pcd (voxel centres, m, binary) and <name>.bt
+/// Writes NAME_occupied.pcd, NAME_inflated.pcd (voxel centres, m, binary) and NAME.bt
 /// (OctoMap of the raw layer, occupied and free). Each file is complete or as it was before.
 ///
 /// \param directory must exist.

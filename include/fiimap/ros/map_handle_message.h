@@ -17,15 +17,19 @@ namespace fiimap {
 /// is a plain fiimap/MapInfo: subscribers in other processes, and readers of bags, have a null
 /// handle.
 struct MapHandleMessage {
+  ///@{
+  /// As of any message of roscpp.
   using Ptr = boost::shared_ptr<MapHandleMessage>;
   using ConstPtr = boost::shared_ptr<const MapHandleMessage>;
+  ///@}
 
-  MapInfo info;
-  std::shared_ptr<const MapHandle> handle;
+  MapInfo info;                             ///< of the newest snapshot
+  std::shared_ptr<const MapHandle> handle;  ///< null in other processes
 };
 
 }  // namespace fiimap
 
+/// \cond for roscpp, which nobody else needs to read
 namespace ros {
 namespace message_traits {
 
@@ -84,3 +88,4 @@ struct Serializer<fiimap::MapHandleMessage> {
 
 }  // namespace serialization
 }  // namespace ros
+/// \endcond

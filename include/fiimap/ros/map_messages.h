@@ -15,10 +15,13 @@
 
 namespace fiimap {
 
+/// Header of a stamp of the core, nanoseconds.
 std_msgs::Header toHeader(std::int64_t stamp_ns, const std::string& map_frame);
 /// With the stamp of the newest scan of a snapshot.
 std_msgs::Header toHeader(const Snapshot& snapshot, const std::string& map_frame);
 
+/// What ~map_handle tells of a snapshot.
+/// \param id of the map's handle.
 MapInfo toMapInfo(const Snapshot& snapshot, const std::string& id, const std::string& map_frame);
 
 /// A cloud without points, fields x y z (float32, m).

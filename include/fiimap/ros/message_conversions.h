@@ -14,8 +14,8 @@ namespace fiimap {
 
 /// A depth image as the mapper wants it, with the memory that its view looks at.
 struct DecodedDepthImage {
-  DepthImage view;
-  std::shared_ptr<const void> pixels;
+  DepthImage view;                     ///< valid as long as `pixels` lives
+  std::shared_ptr<const void> pixels;  ///< the message, or a copy in native byte order
 };
 
 /// Whether images of an encoding are depth images: 16UC1, mono16 or 32FC1.

@@ -17,8 +17,9 @@ enum class PoseLookup {
   kGap,     ///< the poses around the stamp are too far apart in time
 };
 
+/// The pose of the body at a stamp, as far as it is known.
 struct PoseAtStamp {
-  PoseLookup lookup = PoseLookup::kNotYet;
+  PoseLookup lookup = PoseLookup::kNotYet;                  ///< whether it was found
   Eigen::Isometry3d T_W_B = Eigen::Isometry3d::Identity();  ///< body to world, when found
   std::string body_frame;                                   ///< child frame of the pose, when found
   double gap = 0.0;  ///< s between the poses around the stamp, when found or kGap
@@ -38,9 +39,11 @@ class PoseHistory {
   /// Poses may come out of order and twice.
   /// \throws InputError (kZeroStamp, kBadPose); the pose is left out then.
   void add(const geometry_msgs::TransformStamped& pose);
+  /// Forgets all poses.
   void clear();
   void setMaxGap(double max_gap) { max_gap_ = max_gap; }
 
+  /// Whether there is no pose.
   bool empty() const { return newest().isZero(); }
   /// Stamp of the newest pose; zero when there is none.
   ros::Time newest() const { return cache_->getLatestTime(); }

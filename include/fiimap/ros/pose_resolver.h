@@ -18,13 +18,14 @@ namespace fiimap {
 
 /// Pose of a sensor at a stamp, or why it is not known.
 struct ResolvedPose {
+  /// Whether the pose is known.
   enum class State {
     kFound,
     kPending,     ///< may be known later
     kImpossible,  ///< will never be known
   };
 
-  State state = State::kPending;
+  State state = State::kPending;                            ///< all else depends on it
   Drop why;                                                 ///< unless found
   Eigen::Isometry3d T_W_S = Eigen::Isometry3d::Identity();  ///< sensor to world
   /// Body to world; where no body frame is known, the sensor's.
@@ -43,9 +44,13 @@ class PoseResolver {
   /// Goes on with another max_pose_gap; \param config differs in what is `tunable` only.
   void reconfigure(const NodeConfig& config);
 
+  ///@{
+  /// Adds a pose of the body. One that cannot be used is counted and left out.
   void add(const nav_msgs::Odometry& odometry);
   void add(const geometry_msgs::PoseStamped& pose);
   void add(const geometry_msgs::TransformStamped& transform);
+  ///@}
+  /// Adds what came on /tf, or on /tf_static.
   /// \param other newest stamp of other messages, see TransformTree::add().
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static,
              const ros::Time& other = ros::Time());
@@ -61,6 +66,7 @@ class PoseResolver {
   /// Number of transforms of TF that could not be used.
   std::uint64_t refusedTransforms() const { return tree_.refused(); }
 
+  /// Where a sensor was.
   /// \param sensor_frame of its messages.
   ResolvedPose at(const SensorConfig& sensor, const std::string& sensor_frame,
                   const ros::Time& stamp) const;

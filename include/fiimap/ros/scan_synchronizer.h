@@ -16,6 +16,7 @@
 
 namespace fiimap {
 
+/// A pose as it arrives.
 using PoseMessage =
     std::variant<nav_msgs::Odometry, geometry_msgs::PoseStamped, geometry_msgs::TransformStamped>;
 
@@ -35,10 +36,14 @@ class ScanSynchronizer {
   /// \param config validated; differs in what is `tunable` only.
   void reconfigure(const NodeConfig& config);
 
+  /// Takes a pose of the body, which may complete scans.
   void add(const PoseMessage& pose);
+  /// Takes what came on /tf, or on /tf_static.
   void addTf(const tf2_msgs::TFMessage& transforms, bool is_static);
+  /// Takes the intrinsics of a depth camera.
   /// \param sensor index in NodeConfig::sensors.
   void add(const sensor_msgs::CameraInfoConstPtr& info, std::size_t sensor = 0);
+  /// Takes a scan.
   /// \param received when the message arrived; matters for expire() only.
   void add(const ScanMessage& scan, const Moment& received = Moment(), std::size_t sensor = 0);
 
@@ -54,6 +59,7 @@ class ScanSynchronizer {
 
   /// Scans of a sensor that wait.
   std::size_t waiting(std::size_t sensor = 0) const { return sensors_.at(sensor).waiting(); }
+  /// The poses and transforms that are kept.
   const PoseResolver& poses() const { return poses_; }
 
  private:

@@ -19,15 +19,16 @@ namespace fiimap {
 /// they lack. What it drops it tells the listener, and nothing else. Not thread-safe.
 class SensorInput {
  public:
+  /// A scan that waits.
   struct Scan {
-    ScanMessage message;
-    std::string frame;
-    ros::Time stamp;  ///< time_offset included
-    Moment received;
+    ScanMessage message;  ///< as it arrived
+    std::string frame;    ///< of the sensor
+    ros::Time stamp;      ///< time_offset included
+    Moment received;      ///< when it arrived
   };
   /// What a scan needs to be integrated, or why it is not known.
   struct Match {
-    ResolvedPose pose;
+    ResolvedPose pose;             ///< of the sensor at its stamp
     PinholeIntrinsics intrinsics;  ///< of images only
   };
 
@@ -39,6 +40,7 @@ class SensorInput {
   /// \param config differs in what is `tunable` only.
   void reconfigure(const NodeConfig& config);
 
+  /// Of this sensor.
   const SensorConfig& config() const { return config_; }
   /// Newest stamp that was not dropped at once; zero when there is none.
   const ros::Time& newest() const { return newest_; }
@@ -46,11 +48,14 @@ class SensorInput {
   const ros::Time& newestGood() const { return guard_.newest(); }
   /// Stamp of the first scan that waits; there must be one.
   const ros::Time& front() const { return waiting_.front().stamp; }
+  /// Scans that wait.
   std::size_t waiting() const { return waiting_.size() + (doubtful_ ? 1 : 0); }
 
+  /// The intrinsics from now on.
   void add(const sensor_msgs::CameraInfoConstPtr& info);
   /// \return the message with its stamp; nothing when it was dropped because it has none.
   std::optional<Scan> stamped(const ScanMessage& message, const Moment& received);
+  /// Adds a scan to those that wait.
   /// \param others newest good stamp of the other sensors; zero when there is none.
   /// \return false when its stamp tells that time began again: it is to be added again after
   /// restart().
@@ -59,6 +64,7 @@ class SensorInput {
   /// Drops scans that will never have what they need.
   /// \return what the first of the others needs, when it is known.
   std::optional<Match> matchFront();
+  /// Takes the first scan out of the queue, with what matchFront() found.
   SynchronizedScan takeFront(const Match& match);
   /// Drops the first scan when more than scan_queue_size wait. \return whether it did.
   bool dropExcess();

@@ -22,10 +22,11 @@ class StampGuard {
  public:
   static constexpr double kJump = 1.0;  ///< s; what is nearer is in order or late
 
-  /// After kJumpBack clear() must follow.
+  /// Judges a stamp and remembers it. After kJumpBack clear() must follow.
   /// \param other newest good stamp of other topics, zero when there is none: near or before it no
   /// stamp is too far ahead; far ahead of it even the first is doubtful.
   StampVerdict judge(const ros::Time& stamp, const ros::Time& other);
+  /// Forgets all stamps.
   void clear();
 
   /// Newest good stamp; zero when there is none.

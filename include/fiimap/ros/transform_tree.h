@@ -15,8 +15,9 @@
 
 namespace fiimap {
 
+/// A transform at a stamp, as far as it is known.
 struct TransformAtStamp {
-  PoseLookup lookup = PoseLookup::kNotYet;
+  PoseLookup lookup = PoseLookup::kNotYet;                            ///< whether it was found
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();  ///< when found
   double gap = 0.0;  ///< s, largest time between the transforms around the stamp on a moving link
   std::string why;   ///< in words, unless found

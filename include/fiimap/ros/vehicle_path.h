@@ -10,11 +10,12 @@ namespace fiimap {
 /// length: when it is full, every second pose goes and the distance doubles. Not thread-safe.
 class VehiclePath {
  public:
-  static constexpr double kSpacing = 0.1;  ///< m, as long as the path is short
-  static constexpr std::size_t kMaxPoses = 1000;
+  static constexpr double kSpacing = 0.1;         ///< m, as long as the path is short
+  static constexpr std::size_t kMaxPoses = 1000;  ///< at any time
 
   /// Leaves out what is older than the newest: a sensor whose scans take longer.
   void add(const geometry_msgs::PoseStamped& pose);
+  /// Forgets all poses.
   void clear();
 
   /// Oldest first.
