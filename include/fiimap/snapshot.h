@@ -48,8 +48,8 @@ struct VirtualWalls {
 
 /// Voxels that follow each other along z.
 struct VoxelRun {
-  VoxelIndex first;
-  int count;
+  VoxelIndex first;  ///< the lowest
+  int count;         ///< >= 1
 };
 
 /// An immutable view of the whole map at one moment: window, cells, stamp and sequence number

@@ -18,6 +18,7 @@ namespace fiimap {
 /// are.
 class MapChangesReader {
  public:
+  /// What a message brought.
   enum class Result {
     kMap,      ///< snapshot() is the map of the message
     kNoMap,    ///< the vehicle has no map
