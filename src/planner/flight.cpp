@@ -17,6 +17,7 @@ constexpr double kLookAhead = 1.0;   // m, of way to see where it leads
 constexpr double kRestTime = 0.2;    // s, after braking: commands are sent at their own moments
 constexpr double kBlindStep = 0.02;  // s, between places that are looked at
 constexpr double kOwnPlace = 0.2;    // m, around the vehicle, which need not be seen
+constexpr double kTurned = 0.2;      // rad, to a heading that it was to turn to
 
 double angleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
 
@@ -45,6 +46,7 @@ void Flight::setGoals(const std::vector<Eigen::Vector3d>& goals) {
   goals_.assign(goals.begin(), goals.end());
   goal_is_new_ = true;
   ends_at_goal_ = false;
+  looked_around_ = 0.0;
   if (status_.state == FlightState::kGoalReached) set(FlightState::kHovering, "has a new goal");
 }
 
@@ -179,6 +181,7 @@ void Flight::planTo(const Eigen::Vector3d& goal, const FlightInput& input,
       set(FlightState::kNoPath, plan_.end == PathEnd::kNowhere
                                     ? "the vehicle is inside of an obstacle or outside of the map"
                                     : "no trajectory holds the limits");
+      lookAround(input);
     }
     return;
   }
@@ -186,7 +189,10 @@ void Flight::planTo(const Eigen::Vector3d& goal, const FlightInput& input,
   const Eigen::Vector3d flown_end = flown_.current->at(flown_.current->endTime()).position;
   if (!collision && (end - flown_end).norm() < kProgress) {
     ends_at_goal_ = plan_.end == PathEnd::kGoal;
-    if (rests && !ends_at_goal_) set(FlightState::kNoPath, "no way leads nearer to the goal");
+    if (rests && !ends_at_goal_) {
+      set(FlightState::kNoPath, "no way leads nearer to the goal");
+      lookAround(input);
+    }
     return;
   }
   // From rest it may begin at any time.
@@ -197,8 +203,23 @@ void Flight::planTo(const Eigen::Vector3d& goal, const FlightInput& input,
 void Flight::accept(Trajectory trajectory, const FlightInput& input) {
   if (flown_.rests(input.time) && mustTurnFirst(trajectory, input)) return;
   ++status_.plans;
+  looked_around_ = 0.0;
   ends_at_goal_ = plan_.end == PathEnd::kGoal;
   flown_.next = std::make_shared<const Trajectory>(std::move(trajectory));
+}
+
+void Flight::hover(double heading, double time) {
+  const Eigen::Vector3d position = flown_.current->at(time).position;
+  flown_.current = std::make_shared<const Trajectory>(Trajectory::hover(position, time, heading));
+}
+
+void Flight::lookAround(const FlightInput& input) {
+  const double heading = flown_.current->heading().value_or(input.vehicle.yaw);
+  const double turn = 2.0 * config_.view_azimuth;
+  const bool turns = angleBetween(heading, input.vehicle.yaw) > kTurned;
+  if (turns || turn <= 0.0 || looked_around_ + turn >= 2.0 * M_PI) return;
+  looked_around_ += turn;
+  hover(heading + turn, input.time);
 }
 
 bool Flight::mustTurnFirst(const Trajectory& trajectory, const FlightInput& input) {
@@ -206,9 +227,7 @@ bool Flight::mustTurnFirst(const Trajectory& trajectory, const FlightInput& inpu
   if (!heading || angleBetween(*heading, input.vehicle.yaw) <= config_.turn_first_angle) {
     return false;
   }
-  const Eigen::Vector3d position = flown_.current->at(input.time).position;
-  flown_.current =
-      std::make_shared<const Trajectory>(Trajectory::hover(position, input.time, heading));
+  hover(*heading, input.time);
   set(FlightState::kHovering, "turns to where it will fly");
   return true;
 }

@@ -75,6 +75,11 @@ class Flight {
               std::optional<double> collision);
   double planStart(double time) const;
   void accept(Trajectory trajectory, const FlightInput& input);
+  /// Stays where it is and looks to a heading, rad.
+  void hover(double heading, double time);
+  /// Without a way: turns on by what the sensor sees, until it looked all around, once at a place.
+  /// Perhaps there is a way where it did not look, or an obstacle of the map is none.
+  void lookAround(const FlightInput& input);
   bool mustTurnFirst(const Trajectory& trajectory, const FlightInput& input);
   void brake(const std::string& reason);
   bool hasJustBraked(double time) const;
@@ -91,8 +96,9 @@ class Flight {
 
   std::deque<Eigen::Vector3d> goals_;
   bool goal_is_new_ = false;
-  bool ends_at_goal_ = false;  ///< what is flown
-  double last_attempt_ = 0.0;  ///< to plan, s
+  bool ends_at_goal_ = false;   ///< what is flown
+  double last_attempt_ = 0.0;   ///< to plan, s
+  double looked_around_ = 0.0;  ///< rad that it turned at this place to find a way
   FlownTrajectory flown_;
   std::optional<FlightSpace> space_;
   Plan plan_;

@@ -18,6 +18,7 @@ constexpr int kRestKnots = 2;              // added to come to rest smoothly
 constexpr int kAttempts = 4;
 constexpr double kSlower = 0.65, kMuchSlower = 0.4;  // share of the speed for the next attempt
 constexpr double kSlowest = 0.2;
+constexpr double kCrawlSlower = 0.5;
 
 constexpr double kGuideStep = 0.3;  // m; vehicles need more room than that
 
@@ -29,6 +30,17 @@ std::size_t lastWithin(const std::vector<VoxelIndex>& path, double length) {
     if (way > length) break;
   }
   return last;
+}
+
+/// Whether a curve that holds the limits at a share of its speed can be flown from a state: all of
+/// it slower only from rest, which is the same at any speed.
+bool canBeFlown(double share, const MotionState& start) {
+  return share >= 1.0 || (start.velocity.isZero() && start.acceleration.isZero());
+}
+
+/// The same curve at a share of its speed, but no faster than it is.
+Bspline slowed(const Bspline& curve, double share) {
+  return {curve.control(), curve.interval() / std::min(1.0, share)};
 }
 
 /// Speed towards the beginning of a way.
@@ -137,16 +149,28 @@ std::optional<Bspline> TrajectoryPlanner::fly(const FlightSpace& space, const Mo
       {{config_.max_speed, config_.max_acceleration}, config_.clearance, config_.max_escape});
   double factor = 1.0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    std::optional<Bspline> curve = optimizer.optimize(guideAlong(way, start, factor));
+    const std::optional<Bspline> curve = optimizer.optimize(guideAlong(way, start, factor));
     const double share = curve ? slowdown(*curve, start) : kSlower;
-    if (curve && share >= 1.0) return curve;
+    if (curve && canBeFlown(share, start)) return slowed(*curve, share);
     factor = std::max(kSlowest, factor * std::clamp(share, kMuchSlower, kSlower));
   }
-  // Slowly from voxel to voxel: the slower, the nearer to a way that is known to be free.
-  Bspline crawl = guideAlong(safe_way, start, kSlowest);
-  const bool accepted = slowdown(crawl, start) >= 1.0 &&
-                        !firstCollision(Trajectory(crawl, 0.0), space, {0.0}, config_.max_escape);
-  return accepted ? std::optional(std::move(crawl)) : std::nullopt;
+  return crawl(space, start, safe_way);
+}
+
+std::optional<Bspline> TrajectoryPlanner::crawl(const FlightSpace& space, const MotionState& start,
+                                                const Polyline& safe_way) const {
+  // With control points so near to each other, those that the curve lies between at any moment are
+  // no farther apart than a voxel: it cannot leave the way's voxels and those that a step crosses.
+  const double exact = space.resolution() / (Bspline::kDegree * config_.knot_interval);
+  double factor = kSlowest;
+  for (bool is_exact = false; !is_exact; factor *= kCrawlSlower) {
+    is_exact = factor * kSpeedPart * config_.max_speed <= exact;
+    const Bspline curve = guideAlong(safe_way, start, factor);
+    const double share = slowdown(curve, start);
+    const bool is_free = !firstCollision(Trajectory(curve, 0.0), space, {0.0}, config_.max_escape);
+    if (is_free && canBeFlown(share, start)) return slowed(curve, share);
+  }
+  return std::nullopt;
 }
 
 double TrajectoryPlanner::slowdown(const Bspline& curve, const MotionState& start) const {

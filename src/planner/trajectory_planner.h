@@ -44,6 +44,10 @@ class TrajectoryPlanner {
   /// \param way with shortcuts; \param safe_way without.
   std::optional<Bspline> fly(const FlightSpace& space, const MotionState& start,
                              const Polyline& way, const Polyline& safe_way) const;
+  /// The last resort: slowly from voxel to voxel; the slower, the nearer to a way that is free.
+  /// From rest there always is such a curve.
+  std::optional<Bspline> crawl(const FlightSpace& space, const MotionState& start,
+                               const Polyline& safe_way) const;
   /// The share of its speed at which a curve would hold the limits; >= 1: it does.
   double slowdown(const Bspline& curve, const MotionState& start) const;
 

@@ -145,6 +145,33 @@ TEST_F(FlightTest, StopsBeforeAWallThatClosesTheWay) {
   expectSafeWay();
 }
 
+TEST_F(FlightTest, LooksAllAroundOnceWhenThereIsNoWay) {
+  build({{0, -60, -15}, {2, 60, 15}});
+  flight_.setGoals({{11.0, 0.0, 0.0}});
+  std::vector<double> headings{vehicle_.yaw};  // that it looked to, one after the other
+  const double end = time_ + 30.0;
+  flyUntil([&] {
+    if (vehicle_.yaw != headings.back()) headings.push_back(vehicle_.yaw);
+    return time_ >= end;
+  });
+  EXPECT_EQ(flight_.status().state, FlightState::kNoPath);
+  const double seen = 2.0 * flight_config_.view_azimuth;
+  for (std::size_t i = 1; i < headings.size(); ++i) {
+    EXPECT_LE(headings[i] - headings[i - 1], seen + 1e-9) << "something was left out";
+  }
+  EXPECT_GE(headings.back() - headings.front() + seen, 2.0 * M_PI) << "a part was not looked at";
+  EXPECT_LT(headings.back() - headings.front(), 2.0 * M_PI) << "it looked there before";
+}
+
+TEST_F(FlightTest, FliesOnWhenItSeesAWayBehindItself) {
+  build({{0, -60, -15}, {2, 60, 15}});
+  flight_.setGoals({{11.0, 0.0, 0.0}});
+  ASSERT_TRUE(flyUntil(FlightState::kNoPath));
+  EXPECT_TRUE(flyUntil([&] { return std::cos(vehicle_.yaw) < -0.5; })) << "it never looked back";
+  seen_.clear();
+  EXPECT_TRUE(flyUntil(FlightState::kGoalReached)) << flight_.status().reason;
+}
+
 TEST_F(FlightTest, BrakesForAnObstacleThatAppearsAllAround) {
   flight_.setGoals({{11.0, 0.0, 0.0}});
   ASSERT_TRUE(flyUntil([&] { return vehicle_.position.x() > 0.0; }));

@@ -75,6 +75,30 @@ TEST_P(TrajectoryPlannerTest, FliesThroughForests) {
 
 INSTANTIATE_TEST_SUITE_P(Speeds, TrajectoryPlannerTest, ::testing::Values(1.0, 2.0, 4.0));
 
+TEST(TrajectoryPlannerRestTest, WhereAPathLeadsThereIsATrajectoryFromRestAtAnySpeed) {
+  int plans = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    test::Random random(3000 + seed);
+    PlannerConfig config;
+    config.max_speed = test::uniformReal(random, 2.0, 12.0);
+    config.max_acceleration = test::uniformReal(random, 0.5, 4.0);
+    config.knot_interval = test::uniformReal(random, 0.1, 0.6);
+    SCOPED_TRACE("forest " + std::to_string(seed));
+    test::PlannerMap map({160, 160, 20}, kResolution, 0.4);
+    test::scatter(random, 80, 40, &map);
+    const FlightSpace space = map.space();
+    MotionState start;
+    start.position = {test::uniformReal(random, -7, 0), test::uniformReal(random, -7, 7), 0.05};
+    if (!space.isFree(start.position)) continue;
+    const Plan plan = TrajectoryPlanner(config).plan(space, start, 0.0, {7.0, 0.0, 0.0});
+    if (plan.end == PathEnd::kNowhere) continue;
+    ASSERT_TRUE(plan.trajectory) << config.max_speed << " m/s";
+    expectFlyable(*plan.trajectory, space, config, start);
+    ++plans;
+  }
+  EXPECT_GE(plans, 12);
+}
+
 TEST(TrajectoryPlannerReplanTest, GoesOnFromAnyMomentOfATrajectory) {
   const PlannerConfig config;
   TrajectoryPlanner planner(config);
