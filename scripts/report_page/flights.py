@@ -47,6 +47,8 @@ def summary(name, settings, flights):
     return {
         'name': name, 'settings': settings, 'flights': len(flights),
         'reached': sum(flight['reached'] for flight in flights),
+        'stranded': [(flight.get('seed'), flight.get('reason'))
+                     for flight in flights if not flight['reached']],
         'collided': sum(flight['collisions'] > 0 for flight in flights),
         'least_clearance_m': min(least), 'median_of_least_m': statistics.median(least),
         'nearest_5_percent_m': quantile(clearances, shares, NEAR_SHARE),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iomanip>
@@ -39,6 +40,7 @@ struct Options {
   int seeds = 1;
   double time_limit = 300.0;
   std::string json;
+  bool resume = false;
 };
 
 po::options_description describe(Options* options) {
@@ -54,7 +56,10 @@ po::options_description describe(Options* options) {
       "fly in worlds 1 to N of each combination (1)")(
       "time-limit", po::value(&options->time_limit)->value_name("S"),
       "of a flight, simulated time (300)")("json", po::value(&options->json)->value_name("FILE"),
-                                           "write the figures of all flights to this file");
+                                           "write the figures of all flights to this file")(
+      "resume", po::bool_switch(&options->resume),
+      "keep the flights that the file of --json holds, by an interrupted run with the same "
+      "options");
   return all;
 }
 
@@ -104,10 +109,18 @@ std::vector<int> histogramOf(const std::vector<double>& clearances_m) {
   return counts;
 }
 
+/// Why a flight did not reach its goal; empty: it did.
+std::string whyNot(const FlightOutcome& outcome) {
+  if (outcome.reached) return "";
+  if (outcome.planner.state == fiimap::FlightState::kNoPath) return outcome.planner.reason;
+  return "its time was over";
+}
+
 nlohmann::json toJson(const FlightOutcome& outcome) {
   const fiimap::Quantiles update = fiimap::quantilesOf(outcome.update_ms);
   const fiimap::Quantiles planning = fiimap::quantilesOf(outcome.planning_ms);
   return {{"reached", outcome.reached},
+          {"reason", whyNot(outcome)},
           {"seconds", outcome.seconds},
           {"path_length_m", outcome.truth.path_length},
           {"least_clearance_m", outcome.truth.least_clearance},
@@ -167,11 +180,16 @@ void printSummary(const std::string& name, const std::vector<nlohmann::json>& fl
   std::cout << " |\n";
 }
 
-/// Does nothing without a path.
+/// The file is the old one or the new one at any time. Does nothing without a path.
 void write(const nlohmann::json& report, const std::string& path) {
   if (path.empty()) return;
-  std::ofstream file(path);
-  if (!(file << report.dump(2) << std::endl)) throw std::runtime_error("cannot write " + path);
+  const std::string unfinished = path + ".new";
+  std::ofstream file(unfinished);
+  file << report.dump(2) << std::endl;
+  file.close();
+  if (!file || std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    throw std::runtime_error("cannot write " + path);
+  }
 }
 
 nlohmann::json fly(const FlightSettings& base, const std::vector<std::string>& combination,
@@ -185,19 +203,40 @@ nlohmann::json fly(const FlightSettings& base, const std::vector<std::string>& c
   return flight;
 }
 
+/// The flights that an interrupted run left in the file; none: it left no file.
+nlohmann::json flownBefore(const Options& options) {
+  std::ifstream file(options.json);
+  if (!options.resume || !file) return nlohmann::json::array();
+  const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
+  if (!report.is_array())
+    throw std::invalid_argument("--resume: " + options.json + " holds no flights");
+  return report;
+}
+
+/// The flight of a report with these settings in this world; null: there is none.
+const nlohmann::json* find(const nlohmann::json& report,
+                           const std::vector<std::string>& combination, int seed) {
+  for (const nlohmann::json& flight : report) {
+    if (flight.at("seed") == seed && flight.at("settings") == combination) return &flight;
+  }
+  return nullptr;
+}
+
 void flyAll(const Options& options) {
   const FlightSettings base = baseSettings(options);
   const auto all = combinations(options.variations);
   fiimap::ProgressBar progress(all.size() * options.seeds);
   std::size_t done = 0;
-  nlohmann::json report = nlohmann::json::array();
+  nlohmann::json report = flownBefore(options);
   write(report, options.json);  // so that a bad path is known before the flights
   std::vector<std::vector<nlohmann::json>> flights(all.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (int seed = 1; seed <= options.seeds; ++seed) {
-      flights[k].push_back(fly(base, all[k], seed));
-      report.push_back(flights[k].back());
-      write(report, options.json);  // so that an interrupted run keeps its flights
+      if (find(report, all[k], seed) == nullptr) {
+        report.push_back(fly(base, all[k], seed));
+        write(report, options.json);  // so that an interrupted run keeps its flights
+      }
+      flights[k].push_back(*find(report, all[k], seed));
       progress.show(++done);
     }
   }
