@@ -33,8 +33,13 @@ class IgnoredVolumes {
 
   /// \param body_size extent of the vehicle around the origin of its body's frame, along the axes
   /// of that frame, metres; 0: it has none.
-  explicit IgnoredVolumes(const Eigen::Vector3d& body_size)
-      : half_body_(body_size / 2.0), has_body_((body_size.array() > 0.0).all()) {}
+  explicit IgnoredVolumes(const Eigen::Vector3d& body_size) { setBody(body_size); }
+
+  /// Another body; the spheres stay.
+  void setBody(const Eigen::Vector3d& body_size) {
+    half_body_ = body_size / 2.0;
+    has_body_ = (body_size.array() > 0.0).all();
+  }
 
   /// Adds spheres; those added first give way when there are more than kMaxSpheres.
   void add(const std::vector<IgnoredSphere>& spheres);

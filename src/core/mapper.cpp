@@ -212,6 +212,7 @@ void Mapper::reconfigure(const MapperConfig& config) {
     rebuildInflation(stages->inflater.get(), &grid_);
   }
   stages_ = std::move(stages);
+  ignored_.setBody(config.bodySize());
   config_ = config;
 }
 

@@ -220,6 +220,10 @@ const std::map<std::string, std::string>& otherValues() {
       {"ray_end_cut", "2"},
       {"min_hit_cover", "0.9"},
       {"round_rays", "false"},
+      {"body_size_x", "1"},
+      {"body_size_y", "2"},
+      {"body_size_z", "2"},
+      {"clear_body", "true"},
       {"p_hit", "0.55"},
       {"p_miss", "0.45"},
       {"p_min", "0.25"},
@@ -240,6 +244,8 @@ MapperConfig flownConfig() {
   MapperConfig config = smallConfig();
   config.max_depth = config.max_ray_length = 3.0;
   config.pixel_step = 1;
+  config.body_size_x = 4.2;  // to behind the wall where it is near
+  config.body_size_y = config.body_size_z = 0.6;
   config.virtual_walls = true;
   config.virtual_floor = -0.6;
   config.virtual_ceiling = 0.9;
