@@ -20,6 +20,7 @@ struct IgnoredSphere {
   /// It counts for scans whose stamps are at most so far from its own, before or after.
   std::int64_t lifetime_ns = 0;
 
+  /// Whether it counts for a scan of this stamp.
   bool countsAt(std::int64_t stamp_ns) const;
 };
 
@@ -29,6 +30,7 @@ struct IgnoredSphere {
 /// Not thread-safe.
 class IgnoredVolumes {
  public:
+  /// That count at once.
   static constexpr std::size_t kMaxSpheres = 1000;
 
   /// \param body_size extent of the vehicle around the origin of its body's frame, along the axes
@@ -43,6 +45,7 @@ class IgnoredVolumes {
 
   /// Adds spheres; those added first give way when there are more than kMaxSpheres.
   void add(const std::vector<IgnoredSphere>& spheres);
+  /// The body stays.
   void forgetSpheres() { spheres_.clear(); }
 
   /// Takes the returns of a scan that lie in a volume away.

@@ -22,6 +22,7 @@ struct LogOdds {
 
   /// Steps of another scale in this one: the nearest to the same log-odds within L_min and L_max.
   std::int8_t convert(std::int8_t steps, const LogOdds& other) const;
+  /// Whether both scales and steps are the same.
   bool operator==(const LogOdds& other) const;
 
   /// Scans that must hit an unknown voxel until it is occupied.

@@ -112,6 +112,7 @@ class Mapper {
   /// nothing when a scan, or a call like this, has done so since the start or the last reset.
   /// \throws std::invalid_argument for a position that has no voxel index.
   void placeWindow(const Eigen::Vector3d& vehicle_W);
+  /// Whether the window has its place: since the first scan or placeWindow().
   bool hasWindow() const { return window_placed_; }
 
   /// In effect.

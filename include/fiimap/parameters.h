@@ -25,8 +25,9 @@ struct Parameter {
   /// Parses and range-checks; throws std::invalid_argument naming parameter, value and range.
   std::function<void(const std::string&)> set;
 
-  ValueKind kind = ValueKind::kText;
-  double min = 0.0, max = 0.0;            ///< of numbers, both included
+  ValueKind kind = ValueKind::kText;      ///< of the field
+  double min = 0.0;                       ///< of numbers, allowed
+  double max = 0.0;                       ///< of numbers, allowed
   std::vector<std::string> choices = {};  ///< where only these are allowed
   bool tunable = false;                   ///< may change while the map is in use
 };
@@ -50,9 +51,11 @@ template <typename Enum>
 Parameter choiceParameter(const std::string& name, Enum* field,
                           const std::vector<std::string>& names, const std::string& meaning);
 
+///@{
 /// Marks what may change while the map is in use.
 Parameter tunable(Parameter parameter);
 std::vector<Parameter> tunable(std::vector<Parameter> parameters);
+///@}
 
 /// All parameters of a MapperConfig, bound to `config`, in the order of config/default.yaml.
 std::vector<Parameter> mapperParameters(MapperConfig* config);

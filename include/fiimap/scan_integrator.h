@@ -19,7 +19,7 @@ class ScanIntegrator {
   /// \param log_odds what a hit and a miss add, and the limits.
   explicit ScanIntegrator(const LogOdds& log_odds) : log_odds_(log_odds), kernels_(kernels()) {}
 
-  const LogOdds& logOdds() const { return log_odds_; }
+  const LogOdds& logOdds() const { return log_odds_; }  ///< that scans add
 
   /// Updates known, occupied and log-odds from `mask`, whose box must lie in the grid's window.
   /// Appends to changes->lower and changes->raise. The inflated plane is left to the Inflater.

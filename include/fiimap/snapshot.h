@@ -28,8 +28,8 @@ enum class Unseen { kObstacle, kFree };
 /// What counts as an obstacle: what is inflated (or occupied, of the raw layer) always, the rest by
 /// the caller's choice.
 struct ObstacleRules {
-  MapLayer layer;
-  Unseen unknown;
+  MapLayer layer;  ///< that is asked
+  Unseen unknown;  ///< in the window
   Unseen outside;  ///< of the window
 };
 

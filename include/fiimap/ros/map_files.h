@@ -21,12 +21,13 @@ std::string saveMap(const Snapshot& snapshot, const std::string& directory,
 
 /// A map as it was saved. Boxes do not overlap.
 struct SavedMap {
-  std::string file;         ///< that it was read from
-  double resolution = 0.0;  ///< m
-  std::vector<VoxelBox> occupied, free;
+  std::string file;                ///< that it was read from
+  double resolution = 0.0;         ///< m
+  std::vector<VoxelBox> occupied;  ///< in voxels of that size
+  std::vector<VoxelBox> free;      ///< the same
 };
 
-/// Reads <name>.bt, or where there is no such file the obstacles of <name>_occupied.pcd.
+/// Reads NAME.bt, or where there is no such file the obstacles of NAME_occupied.pcd.
 /// \throws std::runtime_error that says what is wrong with directory, name or file; memory
 /// is taken in proportion to the file's size, whatever it says.
 SavedMap readMap(const std::string& directory, const std::string& name);

@@ -17,14 +17,15 @@ namespace fiimap {
 VoxelBox toVoxelBox(const VoxelLattice& lattice, const geometry_msgs::Point& min,
                     const geometry_msgs::Point& max);
 
-// Answers to queries on one snapshot. What is not allowed (GetBox.srv, QueryPoints.srv,
-// CastRays.srv) is refused with the reason in the answer.
-
+///@{
+/// Answers a query on one snapshot. What is not allowed (GetBox.srv, QueryPoints.srv,
+/// CastRays.srv) is refused with the reason in the answer.
 GetBox::Response queryBox(const Snapshot& snapshot, const GetBox::Request& request,
                           const std::string& map_frame);
 QueryPoints::Response queryPoints(const Snapshot& snapshot, const QueryPoints::Request& request,
                                   const std::string& map_frame);
 CastRays::Response castRays(const Snapshot& snapshot, const CastRays::Request& request,
                             const std::string& map_frame);
+///@}
 
 }  // namespace fiimap

@@ -41,7 +41,7 @@ class PoseHistory {
   void add(const geometry_msgs::TransformStamped& pose);
   /// Forgets all poses.
   void clear();
-  void setMaxGap(double max_gap) { max_gap_ = max_gap; }
+  void setMaxGap(double max_gap) { max_gap_ = max_gap; }  ///< s, as at the start
 
   /// Whether there is no pose.
   bool empty() const { return newest().isZero(); }
