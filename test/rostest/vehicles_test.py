@@ -20,6 +20,11 @@ def is_heard(node):
 
 
 class VehiclesTest(MapTest):
+    def tearDown(self):
+        # Not killed: its nodes would live on, and spoil the registration of the next ones.
+        self.assertEqual(self.launched.interrupt(), 0, self.launched.output())
+        super().tearDown()
+
     def write_bag(self, topics):
         """The first scans of the flight. topics: the new name by the old; others are left out."""
         path = self.directory / 'vehicle.bag'
@@ -33,9 +38,9 @@ class VehiclesTest(MapTest):
         return path
 
     def launch(self, file, *arguments):
-        launch = self.start('roslaunch', 'fiimap', file, *arguments)
+        self.launched = self.start('roslaunch', 'fiimap', file, *arguments)
         listener = self.listen('fiimap')
-        self.wait_for_map(listener, launch)
+        self.wait_for_map(listener, self.launched)
         return listener
 
     def start_driver_transforms(self, other):
