@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::runtime_error(what); }
+[[noreturn]] void refuseFile(const std::string& what) { throw std::runtime_error(what); }
 
 void requireName(const std::string& name) {
   const bool allowed = std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -24,8 +24,8 @@ void requireName(const std::string& name) {
   std::string printable = name;  // a 0 would end the message
   std::replace_if(
       printable.begin(), printable.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
-  refuse("name '" + printable +
-         "': must consist of letters, digits, '_', '-' and '.', and not begin with '.'");
+  refuseFile("name '" + printable +
+             "': must consist of letters, digits, '_', '-' and '.', and not begin with '.'");
 }
 
 /// Writes beside the file first, so that a crash or a full disk leaves no half file of that name.
@@ -37,17 +37,17 @@ void replaceFile(const std::string& directory, const std::string& name,
     write(partial);
   } catch (const std::exception& error) {
     std::remove(partial.c_str());
-    refuse(file + ": " + error.what());
+    refuseFile(file + ": " + error.what());
   }
   if (std::rename(partial.c_str(), file.c_str()) != 0) {
     const std::string why = std::strerror(errno);
     std::remove(partial.c_str());
-    refuse(file + ": cannot be written: " + why);
+    refuseFile(file + ": cannot be written: " + why);
   }
 }
 
 void requireDirectory(const std::string& directory) {
-  if (directory.empty()) refuse("the parameter save_directory is not set");
+  if (directory.empty()) refuseFile("the parameter save_directory is not set");
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ std::string saveMap(const Snapshot& snapshot, const std::string& directory,
                     const std::string& name) {
   requireName(name);
   requireDirectory(directory);
-  if (snapshot.count(Plane::kOccupied) == 0) refuse("the map has no occupied voxel yet");
+  if (snapshot.count(Plane::kOccupied) == 0) refuseFile("the map has no occupied voxel yet");
   replaceFile(directory, name + "_occupied.pcd",
               [&snapshot](const std::string& file) { writePcd(snapshot, Plane::kOccupied, file); });
   replaceFile(directory, name + "_inflated.pcd",
@@ -81,7 +81,7 @@ SavedMap readMap(const std::string& directory, const std::string& name) {
     map.file = file;
     return map;
   } catch (const std::exception& error) {
-    refuse(file + ": " + error.what());
+    refuseFile(file + ": " + error.what());
   }
 }
 

@@ -26,7 +26,7 @@ struct Header {
   long nodes = -1;
 };
 
-Header readHeader(SavedMapFile* file) {
+Header readOctomapHeader(SavedMapFile* file) {
   Header header;
   if (file->line().rfind(kFirstLine, 0) != 0) file->fail("is not an OctoMap .bt file");
   for (std::string line = file->line(); line != "data"; line = file->line()) {
@@ -107,7 +107,7 @@ void writeOctomap(const Snapshot& snapshot, const std::string& file) {
 
 SavedMap readOctomap(const std::string& path) {
   SavedMapFile file(path);
-  const Header header = readHeader(&file);
+  const Header header = readOctomapHeader(&file);
   SavedMap map;
   map.resolution = header.resolution;
   if (header.nodes != 0) {

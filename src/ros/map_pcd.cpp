@@ -16,7 +16,7 @@ namespace {
 const char* const kResolutionKey = "# resolution ";  // a comment to other readers
 
 /// Entries of a PCD header, by their first word.
-std::map<std::string, std::string> readHeader(SavedMapFile* file) {
+std::map<std::string, std::string> readPcdHeader(SavedMapFile* file) {
   std::map<std::string, std::string> entries;
   for (std::string line = file->line();; line = file->line()) {
     const bool is_ours = line.rfind(kResolutionKey, 0) == 0;
@@ -50,7 +50,7 @@ void writePcd(const Snapshot& snapshot, Plane plane, const std::string& file) {
 // PCL's own reader takes memory for as many points as a damaged header claims.
 SavedMap readPcd(const std::string& path) {
   SavedMapFile file(path);
-  std::map<std::string, std::string> header = readHeader(&file);
+  std::map<std::string, std::string> header = readPcdHeader(&file);
   for (const auto& [key, value] : std::map<std::string, std::string>{{"FIELDS", "x y z"},
                                                                      {"SIZE", "4 4 4"},
                                                                      {"TYPE", "F F F"},

@@ -51,11 +51,11 @@ std::uint8_t toStates(const Snapshot& snapshot, const Place& place) {
                                    kInflatedFactor * toState(snapshot.inflation(place)));
 }
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void refuseQuery(const std::string& what) { throw std::invalid_argument(what); }
 
 void requireAtMost(const std::string& what, double count, std::int64_t limit) {
   if (count <= static_cast<double>(limit)) return;
-  refuse(what + " must be at most " + std::to_string(limit) + "; ask for fewer at once");
+  refuseQuery(what + " must be at most " + std::to_string(limit) + "; ask for fewer at once");
 }
 
 /// Lets a function fill an answer, which tells why when it throws.
@@ -75,7 +75,7 @@ Response answer(const Snapshot& snapshot, const std::string& map_frame, Fill&& f
 Unseen toUnseen(const std::string& name, std::uint8_t value) {
   if (value == CastRays::Request::OBSTACLE) return Unseen::kObstacle;
   if (value == CastRays::Request::FREE) return Unseen::kFree;
-  refuse(name + " = " + std::to_string(value) + ": must be OBSTACLE (1) or FREE (2)");
+  refuseQuery(name + " = " + std::to_string(value) + ": must be OBSTACLE (1) or FREE (2)");
 }
 
 ObstacleRules toRules(const CastRays::Request& request) {
@@ -85,7 +85,7 @@ ObstacleRules toRules(const CastRays::Request& request) {
   } else if (request.layer == CastRays::Request::RAW) {
     rules.layer = MapLayer::kRaw;
   } else {
-    refuse("layer = " + std::to_string(request.layer) + ": must be INFLATED (1) or RAW (2)");
+    refuseQuery("layer = " + std::to_string(request.layer) + ": must be INFLATED (1) or RAW (2)");
   }
   rules.unknown = toUnseen("unknown", request.unknown);
   rules.outside = toUnseen("outside", request.outside);
@@ -94,15 +94,15 @@ ObstacleRules toRules(const CastRays::Request& request) {
 
 void requireAllowed(const CastRays::Request& request, const VoxelLattice& lattice) {
   if (request.starts.size() != request.ends.size()) {
-    refuse("starts has " + std::to_string(request.starts.size()) + " points, ends has " +
-           std::to_string(request.ends.size()) + ": must be as many");
+    refuseQuery("starts has " + std::to_string(request.starts.size()) + " points, ends has " +
+                std::to_string(request.ends.size()) + ": must be as many");
   }
   requireAtMost("segments", static_cast<double>(request.starts.size()), kMaxPoints);
   double voxels = 0.0;
   for (std::size_t i = 0; i < request.starts.size(); ++i) {
     const Eigen::Vector3d from = toEigen(request.starts[i]), to = toEigen(request.ends[i]);
     if (!lattice.canIndex(from) || !lattice.canIndex(to)) {
-      refuse("segment " + std::to_string(i) + ": " + kBadPoint);
+      refuseQuery("segment " + std::to_string(i) + ": " + kBadPoint);
     }
     voxels += lattice.toVoxels(to - from).lpNorm<1>();
   }
@@ -115,9 +115,10 @@ VoxelBox toVoxelBox(const VoxelLattice& lattice, const geometry_msgs::Point& min
                     const geometry_msgs::Point& max) {
   const Eigen::Vector3d low = toEigen(min), high = toEigen(max);
   if (!lattice.canIndex(low) || !lattice.canIndex(high)) {
-    refuse(std::string("min and max: ") + kBadPoint);
+    refuseQuery(std::string("min and max: ") + kBadPoint);
   }
-  if ((high.array() < low.array()).any()) refuse("max must not be less than min along any axis");
+  if ((high.array() < low.array()).any())
+    refuseQuery("max must not be less than min along any axis");
   return {lattice.indexOf(low), lattice.indexOf(high).array() + 1};
 }
 

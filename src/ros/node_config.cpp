@@ -15,11 +15,13 @@ constexpr double kMaxRate = 1000.0;         // Hz
 constexpr double kMinKeyframePeriod = 0.1;  // s
 constexpr int kMaxQueue = 1000;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void refuseConfiguration(const std::string& what) {
+  throw std::invalid_argument(what);
+}
 
 void requireFrame(const std::string& name, const std::string& frame) {
   if (!frame.empty() && frame.front() == '/') {
-    refuse("parameter " + name + " = '" + frame + "': must not begin with '/'");
+    refuseConfiguration("parameter " + name + " = '" + frame + "': must not begin with '/'");
   }
 }
 
@@ -71,8 +73,8 @@ void requireFreeNames(const std::vector<SensorConfig>& sensors,
                       const std::vector<Parameter>& parameters) {
   for (const SensorConfig& sensor : sensors) {
     if (!isNameOf(sensor.name, parameters)) continue;
-    refuse("parameter sensors = '" + joinNames(sensors) + "': '" + sensor.name +
-           "' is the name of a parameter, must be another");
+    refuseConfiguration("parameter sensors = '" + joinNames(sensors) + "': '" + sensor.name +
+                        "' is the name of a parameter, must be another");
   }
 }
 
@@ -128,29 +130,31 @@ void NodeConfig::validate() const {
   NodeConfig copy = *this;
   for (const Parameter& parameter : nodeParameters(&copy)) parameter.set(parameter.get());
 
-  if (map_frame.empty()) refuse("parameter map_frame = '': must name a frame");
+  if (map_frame.empty()) refuseConfiguration("parameter map_frame = '': must name a frame");
   requireFrame("map_frame", map_frame);
   requireFrame("body_frame", body_frame);
   for (const SensorConfig& each : allSensors()) each.validate();
   if (pose_history < max_pose_wait || pose_history < max_pose_gap) {
-    refuse("parameter pose_history = " + std::to_string(pose_history) +
-           ": must be at least max_pose_wait and max_pose_gap");
+    refuseConfiguration("parameter pose_history = " + std::to_string(pose_history) +
+                        ": must be at least max_pose_wait and max_pose_gap");
   }
   if (!body_frame.empty()) return;
   if (pose_source == PoseSource::kTf && sensors.size() > 1) {
-    refuse(
+    refuseConfiguration(
         "parameter body_frame = '': must be set, because with several sensors pose_source = tf "
         "needs to know which frame is the vehicle's");
   }
   for (const SensorConfig& each : allSensors()) {
     const bool from_tf = each.extrinsics == ExtrinsicsSource::kTf;
     if (pose_source == PoseSource::kPose && from_tf) {
-      refuse("parameter body_frame = '': must be set, because " + each.prefix() +
-             "extrinsics = tf and the messages of pose_source = pose do not name their body");
+      refuseConfiguration(
+          "parameter body_frame = '': must be set, because " + each.prefix() +
+          "extrinsics = tf and the messages of pose_source = pose do not name their body");
     }
     if (pose_source == PoseSource::kTf && !from_tf) {
-      refuse("parameter body_frame = '': must be set, because " + each.prefix() +
-             "extrinsics = parameter starts from the body and pose_source = tf needs its name");
+      refuseConfiguration(
+          "parameter body_frame = '': must be set, because " + each.prefix() +
+          "extrinsics = parameter starts from the body and pose_source = tf needs its name");
     }
   }
 }

@@ -14,7 +14,7 @@ constexpr double kMaxRadius = 100.0;   // m
 constexpr double kMaxLifetime = 60.0;  // s
 constexpr double kFarAway = 1e9;       // m, beyond all maps
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuseVehicles(const std::string& what) {
   throw std::invalid_argument("other vehicles: " + what);
 }
 
@@ -22,7 +22,7 @@ void requireAllowed(const std::string& name, double value, double max, const std
   if (value > 0.0 && value <= max) return;
   std::ostringstream text;
   text << name << " = " << value << ": must be above 0 and at most " << max << " " << unit;
-  refuse(text.str());
+  refuseVehicles(text.str());
 }
 
 }  // namespace
@@ -30,9 +30,10 @@ void requireAllowed(const std::string& name, double value, double max, const std
 std::vector<IgnoredSphere> toIgnoredSpheres(const OtherVehicles& message,
                                             const std::string& map_frame) {
   if (plainFrame(message.header.frame_id) != map_frame) {
-    refuse("they are in frame '" + message.header.frame_id + "', map_frame is '" + map_frame + "'");
+    refuseVehicles("they are in frame '" + message.header.frame_id + "', map_frame is '" +
+                   map_frame + "'");
   }
-  if (message.header.stamp.isZero()) refuse("the message has no stamp");
+  if (message.header.stamp.isZero()) refuseVehicles("the message has no stamp");
   std::vector<IgnoredSphere> spheres;
   for (const OtherVehicle& vehicle : message.vehicles) {
     requireAllowed("radius", vehicle.radius, kMaxRadius, "m");
@@ -40,7 +41,7 @@ std::vector<IgnoredSphere> toIgnoredSpheres(const OtherVehicles& message,
     IgnoredSphere sphere;
     sphere.center_W = toEigen(vehicle.position);
     if (!sphere.center_W.allFinite() || sphere.center_W.cwiseAbs().maxCoeff() > kFarAway) {
-      refuse("a position is not finite, or more than 10^9 m away");
+      refuseVehicles("a position is not finite, or more than 10^9 m away");
     }
     sphere.radius = vehicle.radius;
     sphere.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());

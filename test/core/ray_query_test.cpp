@@ -16,8 +16,8 @@ namespace {
 using test::GridSegment;
 using Vector = Eigen::Vector3d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr Unseen kChoices[] = {Unseen::kObstacle, Unseen::kFree};
 
 std::vector<ObstacleRules> allRules() {
@@ -188,7 +188,7 @@ TEST(RayQueryExampleTest, ASegmentWithoutVoxelsIsBlockedAtItsStart) {
   info.resolution = 0.1;
   const Snapshot map(&grid, info);
   const Vector zero = Vector::Zero();
-  for (const double bad : {kNan, kInf, -kInf, 1e300, 1e9}) {
+  for (const double bad : {kNoNumber, kEndless, -kEndless, 1e300, 1e9}) {
     for (int axis = 0; axis < 3; ++axis) {
       Vector end = zero;
       end[axis] = bad;
