@@ -98,7 +98,7 @@ void RebuildCloudsNodelet::onChanges(const MapChangesConstPtr& message) {
       case MapChangesReader::Result::kNoMap:
         break;
     }
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {  // malformed, or too large for the memory
     NODELET_ERROR("%s: waiting for the next keyframe", error.what());
     return;
   }

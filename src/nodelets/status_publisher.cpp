@@ -14,7 +14,7 @@ constexpr int kQueue = 1;
 StatusPublisher::StatusPublisher(ros::NodeHandle node, const std::string& map_frame, double rate)
     : map_frame_(map_frame), thread_(rate, [this] { publish(); }) {
   publisher_ = node.advertise<visualization_msgs::MarkerArray>(
-      "status", kQueue, [this](const ros::SingleSubscriberPublisher&) { thread_.wake(); });
+      "status", kQueue, [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); });
 }
 
 StatusPublisher::~StatusPublisher() {
@@ -34,6 +34,14 @@ void StatusPublisher::clear() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     update_.reset();
+  }
+  thread_.wake();
+}
+
+void StatusPublisher::onSubscriber() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!update_) return;
   }
   thread_.wake();
 }

@@ -29,6 +29,7 @@ class StatusPublisher {
   void clear();
 
  private:
+  void onSubscriber();
   void publish();
 
   std::string map_frame_;

@@ -126,8 +126,10 @@ GetBox::Response queryBox(const Snapshot& snapshot, const GetBox::Request& reque
                           const std::string& map_frame) {
   return answer<GetBox::Response>(snapshot, map_frame, [&](GetBox::Response* response) {
     const VoxelBox box = toVoxelBox(snapshot.lattice(), request.min, request.max);
+    // The size of a box from one end of all indices to the other is no index.
+    requireAtMost("voxels of the box", (box.max.cast<double>() - box.min.cast<double>()).prod(),
+                  kMaxVoxels);
     const VoxelIndex size = box.size();
-    requireAtMost("voxels of the box", size.cast<double>().prod(), kMaxVoxels);
     response->resolution = snapshot.info().resolution;
     response->origin = toPoint(box.min.cast<double>() * response->resolution);
     response->size_x = static_cast<std::uint32_t>(size.x());

@@ -64,6 +64,18 @@ TEST(CloudChecksTest, FindCloudsInTheFrameOfTheMap) {
   EXPECT_TRUE(diagnosis.launch_words.empty());
 }
 
+TEST(CloudChecksTest, PreferACloudToAnImageThatMayBeNoneOfDepths) {
+  SeenVehicle vehicle = withLidar();
+  vehicle.image_topic = "/lidar/signal_image";
+  vehicle.image = [](sensor_msgs::Image* image) {
+    fillImage(3000.0, "mono16", image);
+    return kComes;
+  };
+  const Diagnosis diagnosis = vehicle.diagnosis();
+  EXPECT_EQ(diagnosis.setup.points, "/points");
+  expectNothingWrong(diagnosis);
+}
+
 TEST(CloudChecksTest, PreferTheCloudOfTheSensor) {
   SeenVehicle vehicle = withLidar();
   SeenVehicle registered = withLidar();

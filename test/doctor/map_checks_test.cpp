@@ -28,6 +28,15 @@ TEST(MapChecksTest, FindNothingWrongWithAMapThatHearsAll) {
                  "The map that runs has what it needs.");
 }
 
+TEST(MapChecksTest, LookAtAllThatANodeletManagerHears) {
+  SeenMap seen;
+  // Of other nodelets; they come first in the alphabet.
+  seen.map.inputs["/a/camera/image"] = "sensor_msgs/Image";
+  seen.map.inputs["/a/camera/camera_info"] = "sensor_msgs/CameraInfo";
+  seen.map.inputs["/a/odom"] = "nav_msgs/Odometry";
+  expectNothingWrong(seen.vehicle.diagnosis());
+}
+
 TEST(MapChecksTest, FindTopicsThatNobodyPublishes) {
   SeenMap seen;
   seen.map.inputs = {{"/depth/image", "sensor_msgs/Image"},

@@ -112,6 +112,10 @@ TEST_F(MapQueriesTest, BadBoxesAreRefusedWithTheReason) {
   EXPECT_NE(refusal(zero, {0, 0, 1e300}).find("finite"), std::string::npos);
   EXPECT_NE(refusal({1, 0, 0}, zero).find("less than min"), std::string::npos);
   EXPECT_NE(refusal(zero, {1e4, 1e4, 1e4}).find("at most 16777216"), std::string::npos);
+  // All voxels that have an index: their number along an axis is none.
+  constexpr double kLastIndex = (1 << 30) - 0.5;
+  const Eigen::Vector3d end = Eigen::Vector3d::Constant(kLastIndex * kBoxResolution);
+  EXPECT_NE(refusal(-end, end).find("at most 16777216"), std::string::npos);
 }
 
 TEST_F(MapQueriesTest, ManyPointsHaveTheStatesThatEachHas) {

@@ -87,7 +87,7 @@ bool useTopic(PoseSource source, Examination* e) {
   const auto index = static_cast<std::size_t>(source);
   const std::vector<std::string> topics = poseTopics(kPoseTypes[index], *e);
   if (topics.empty()) return false;
-  const std::string listened = listenedTo(kPoseTypes[index], e->seen);
+  const std::string listened = listenedTo(kPoseTypes[index], e->seen, topics);
   const std::string chosen = e->seen.poses.count(listened) != 0 ? listened : topics.front();
   noteOthers("topics of poses", chosen, topics, kOptions[index], e);
   usePoses(source, chosen, e);

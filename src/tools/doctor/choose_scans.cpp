@@ -23,6 +23,9 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
+/// Below it, an image of 16 bits may as well be a LiDAR's or a thermal camera's.
+constexpr int kLikelyDepth = 2;
+
 int likelihood(const std::string& depth_image, const Examination& e) {
   return 4 * static_cast<int>(e.seen.infos.count(infoBeside(depth_image))) +
          2 * static_cast<int>(contains(depth_image, "depth")) +
@@ -103,15 +106,15 @@ void reportNoScans(Examination* e) {
 
 /// The topic that the user, or the node that runs, wants.
 std::string wanted(const std::string& wish, const std::string& type, const char* option,
-                   const Examination& e) {
-  if (wish.empty()) return listenedTo(type, e.seen);
+                   const std::vector<std::string>& candidates, const Examination& e) {
+  if (wish.empty()) return listenedTo(type, e.seen, candidates);
   requireType(wish, {type}, option, e.seen);
   return wish;
 }
 
 void chooseCameraInfo(Examination* e) {
-  const std::string wish = wanted(e->wishes.camera_info, kInfoType, "--camera-info", *e);
   const std::string beside = infoBeside(e->setup.depth_image);
+  const std::string wish = wanted(e->wishes.camera_info, kInfoType, "--camera-info", {beside}, *e);
   if (e->seen.infos.count(wish) != 0) {
     e->setup.camera_info = wish;
     return;
@@ -151,8 +154,8 @@ void chooseScans(Examination* e) {
   const bool points_named = !e->wishes.points.empty();
   std::string image = points_named || (map_takes_points && e->wishes.depth_image.empty())
                           ? ""
-                          : wanted(e->wishes.depth_image, kImageType, "--depth-image", *e);
-  std::string cloud = wanted(e->wishes.points, kCloudType, "--points", *e);
+                          : wanted(e->wishes.depth_image, kImageType, "--depth-image", images, *e);
+  std::string cloud = wanted(e->wishes.points, kCloudType, "--points", clouds, *e);
   if (!image.empty() && e->seen.images.count(image) != 0 && e->seen.depth.count(image) == 0) {
     e->error("The image " + image + " has the encoding '" +
                  e->seen.images.at(image).front().message->encoding + "': it is no depth image.",
@@ -163,7 +166,9 @@ void chooseScans(Examination* e) {
   // What a map listens to in vain is said with the map.
   if (e->seen.depth.count(image) == 0 && e->wishes.depth_image.empty()) image.clear();
   if (e->seen.points.count(cloud) == 0 && e->wishes.points.empty()) cloud.clear();
-  if (image.empty() && !points_named && !map_takes_points && !images.empty()) {
+  const bool images_are_likely =
+      !images.empty() && (clouds.empty() || likelihood(images.front(), *e) >= kLikelyDepth);
+  if (image.empty() && !points_named && !map_takes_points && images_are_likely) {
     image = images.front();
   }
   if (!image.empty()) {

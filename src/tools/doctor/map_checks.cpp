@@ -9,7 +9,7 @@ namespace {
 /// What a map listens to must be what was found.
 void checkInput(const std::string& what, const std::string& type, const std::string& found,
                 const char* argument, Examination* e) {
-  const std::string listened = listenedTo(type, e->seen);
+  const std::string listened = listenedTo(type, e->seen, {found});
   if (listened.empty() || found.empty() || listened == found) return;
   const bool exists = e->seen.types.count(listened) != 0;
   e->error("The map " + e->seen.map->name + " listens to " + listened + " for " + what + ", " +

@@ -13,12 +13,16 @@ std::vector<std::string> topicsOfType(const std::string& type, const Observation
   return topics;
 }
 
-std::string listenedTo(const std::string& type, const Observation& observation) {
+std::string listenedTo(const std::string& type, const Observation& observation,
+                       const std::vector<std::string>& candidates) {
   if (!observation.map) return "";
+  std::string first;
   for (const auto& [topic, type_of_topic] : observation.map->inputs) {
-    if (type_of_topic == type) return topic;
+    if (type_of_topic != type) continue;
+    if (std::find(candidates.begin(), candidates.end(), topic) != candidates.end()) return topic;
+    if (first.empty()) first = topic;
   }
-  return "";
+  return first;
 }
 
 void requireType(const std::string& topic, const std::vector<std::string>& types,

@@ -10,8 +10,10 @@ namespace fiimap {
 /// All topics of a message type, in the order of their names.
 std::vector<std::string> topicsOfType(const std::string& type, const Observation& observation);
 
-/// The topic of a type that the mapping node that runs listens to; empty where there is none.
-std::string listenedTo(const std::string& type, const Observation& observation);
+/// The topic of a type that the mapping node that runs listens to, one of the candidates if it can
+/// be: in a nodelet manager, what others listen to is among its inputs. Empty where there is none.
+std::string listenedTo(const std::string& type, const Observation& observation,
+                       const std::vector<std::string>& candidates);
 
 /// \param option that names the topic.
 /// \throws std::invalid_argument unless the topic exists and is of one of the types.
