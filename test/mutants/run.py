@@ -15,8 +15,8 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-COPIED = ('cmake', 'include', 'src/core', 'src/tools', 'test/alone', 'test/core', 'test/fuzz',
-          'test/soak', 'test/test_main.cpp')
+COPIED = ('cmake', 'include', 'package.xml', 'src/core', 'src/tools', 'test/alone', 'test/core',
+          'test/fuzz', 'test/soak', 'test/test_main.cpp')
 # The quickest first: most mutants end there.
 TESTS = ('core_config_test', 'core_geometry_test', 'core_projector_test', 'core_kernels_test',
          'core_edge_test', 'core_snapshot_test', 'core_mapper_test', 'core_scan_test',
