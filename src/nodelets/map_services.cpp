@@ -43,11 +43,6 @@ MapServices::MapServices(ros::NodeHandle node, const NodeConfig& config,
       node.subscribe("other_vehicles", kVehicleQueue, &MapServices::onOtherVehicles, this);
 }
 
-void MapServices::stop() {
-  other_vehicles_.shutdown();
-  for (ros::ServiceServer& server : servers_) server.shutdown();
-}
-
 template <typename Response, typename Query>
 bool MapServices::answer(Response* response, const Query& query) const {
   return fillOrRefuse(response, [&] {

@@ -25,15 +25,10 @@ namespace fiimap {
 /// the reason in the answer.
 class MapServices {
  public:
-  /// \param node whose callbacks may wait and may run at once; \param mapping must outlive this
-  /// object.
+  /// \param node whose callbacks may wait and may run at once, and have ended before this object
+  /// does; \param mapping must outlive this object.
   MapServices(ros::NodeHandle node, const NodeConfig& config,
               std::shared_ptr<const MapHandle> handle, MappingThread* mapping);
-  ~MapServices() { stop(); }
-
-  /// No callback runs any more when this returns. The mapping thread must have stopped, or go on:
-  /// callbacks wait for it.
-  void stop();
 
  private:
   void onOtherVehicles(const OtherVehiclesConstPtr& message);

@@ -15,6 +15,9 @@ namespace {
 
 constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
+// One input after another; services may wait, write files or ask much of the map.
+constexpr unsigned kInputThreads = 1;
+constexpr unsigned kServiceThreads = 4;
 constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
 constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one kind
@@ -29,6 +32,9 @@ double physicalMemoryBytes() {
 
 }  // namespace
 
+MappingNodelet::MappingNodelet()
+    : input_threads_(kInputThreads), service_threads_(kServiceThreads) {}
+
 void MappingNodelet::onInit() {
   MapperConfig mapper_config;
   try {
@@ -41,13 +47,16 @@ void MappingNodelet::onInit() {
     throw;
   }
   logStart(mapping_->mapper());
-  inputs_ = std::make_unique<InputSubscriber>(getNodeHandle(), node_config_, mapping_.get());
+  inputs_ = std::make_unique<InputSubscriber>(input_threads_.attach(getNodeHandle()), node_config_,
+                                              mapping_.get());
   advertise();
   tuning_ = std::make_unique<TuningServer>(
-      getMTPrivateNodeHandle(), getName(), mapper_config, node_config_,
+      service_threads_.attach(getPrivateNodeHandle()), getName(), mapper_config, node_config_,
       [this](const MapperConfig& map, const NodeConfig& node) { return retune(map, node); });
   MapRegistry::add(handle_);
   mapping_->start();
+  input_threads_.start();
+  service_threads_.start();
 }
 
 MappingNodelet::~MappingNodelet() {
@@ -55,9 +64,8 @@ MappingNodelet::~MappingNodelet() {
   // Nothing may call back any more before that goes which callbacks use. The mapping thread stops
   // first: a reset service that waits for it returns then.
   mapping_->stop();
-  diagnostics_timer_.stop();
-  if (services_) services_->stop();
-  tuning_.reset();
+  input_threads_.stop();
+  service_threads_.stop();
 }
 
 void MappingNodelet::configureFromParameters(MapperConfig* mapper_config) {
@@ -84,9 +92,8 @@ void MappingNodelet::logStart(const Mapper& mapper) {
   const double memory = static_cast<double>(mapper.grid().worstCaseMemoryBytes());
   NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, about %.0f MB when all is seen",
                config.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
-  NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels",
-               config.inflation_radius, config.inflation_radius / config.resolution,
-               config.structuringElement().reach());
+  NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels", config.inflation_radius,
+               config.inflation_radius / config.resolution, config.structuringElement().reach());
   NODELET_INFO("a voxel is occupied after %d hits, cleared after at most %d misses",
                mapper.logOdds().hitsToOccupy(), mapper.logOdds().missesToClear());
   if (memory > physicalMemoryBytes()) {
@@ -97,7 +104,7 @@ void MappingNodelet::logStart(const Mapper& mapper) {
 }
 
 void MappingNodelet::advertise() {
-  ros::NodeHandle& node = getPrivateNodeHandle();
+  ros::NodeHandle node = input_threads_.attach(getPrivateNodeHandle());
   const bool latch = true;
   statistics_publisher_ = node.advertise<Statistics>("statistics", kStatisticsQueue, latch);
   handle_publisher_ = node.advertise<MapHandleMessage>("map_handle", kHandleQueue, latch);
@@ -112,12 +119,11 @@ void MappingNodelet::advertise() {
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
                                                       [this] { return mapping_->counters(); });
 
-  // Services may wait or write files, so they must not hold up the input callbacks.
-  services_ = std::make_unique<MapServices>(getMTPrivateNodeHandle(), node_config_, handle_,
-                                            mapping_.get());
-  diagnostics_timer_ = getMTNodeHandle().createWallTimer(
-      ros::WallDuration(kDiagnosticsPeriod),
-      [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
+  ros::NodeHandle services = service_threads_.attach(getPrivateNodeHandle());
+  services_ = std::make_unique<MapServices>(services, node_config_, handle_, mapping_.get());
+  diagnostics_timer_ =
+      services.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
+                               [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
 }
 
 void MappingNodelet::onDiagnosticsTimer() {

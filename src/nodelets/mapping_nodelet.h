@@ -9,6 +9,7 @@
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 
+#include "callback_threads.h"
 #include "changes_publisher.h"
 #include "cloud_publisher.h"
 #include "fiimap/map_handle.h"
@@ -23,11 +24,11 @@
 
 namespace fiimap {
 
-/// The map as a nodelet: topics and services around a MappingThread. Callbacks only enqueue; the
-/// map is made in the mapping thread and published as clouds in the publisher's thread.
+/// The map as a nodelet: topics and services around a MappingThread. Input callbacks only enqueue;
+/// the map is made in the mapping thread and published as clouds in the publisher's thread.
 class MappingNodelet : public nodelet::Nodelet, private MapObserver {
  public:
-  MappingNodelet() = default;
+  MappingNodelet();
   /// Stops and joins everything; may be called at any moment.
   ~MappingNodelet() override;
 
@@ -53,6 +54,10 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   NodeConfig node_config_;  // as at the start
   std::shared_ptr<MapHandle> handle_;
   VoxelBox update_box_;  // of the newest scan; of the mapping thread alone
+  // Longer than all that is registered with them.
+  CallbackThreads input_threads_;
+  CallbackThreads service_threads_;
+
   // When a drop was warned of, by reason and sensor; of the mapping thread alone.
   std::map<std::pair<DropReason, std::string>, std::chrono::steady_clock::time_point> warned_;
 

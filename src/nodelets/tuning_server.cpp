@@ -38,10 +38,6 @@ TuningServer::TuningServer(const ros::NodeHandle& node, const std::string& name,
   for (const SensorConfig& sensor : node_config_.sensors) open(sensor);
 }
 
-TuningServer::~TuningServer() {
-  for (Endpoint& endpoint : endpoints_) endpoint.service.shutdown();
-}
-
 /// \param sensor without a name: the map.
 void TuningServer::open(const SensorConfig& sensor) {
   endpoints_.emplace_back();

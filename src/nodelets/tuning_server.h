@@ -27,13 +27,12 @@ class TuningServer {
   /// shutting down. Throws what refuses it.
   using Apply = std::function<bool(const MapperConfig&, const NodeConfig&)>;
 
-  /// \param node private to the nodelet; its callbacks wait for `apply`.
+  /// \param node private to the nodelet; its callbacks wait for `apply`, and have ended before this
+  /// object does.
   /// \param name of the nodelet, for messages to the user.
   /// \param mapper, node_config in effect.
   TuningServer(const ros::NodeHandle& node, const std::string& name, const MapperConfig& mapper,
                const NodeConfig& node_config, Apply apply);
-  /// Waits for a callback that runs.
-  ~TuningServer();
 
  private:
   using Request = dynamic_reconfigure::Reconfigure::Request;

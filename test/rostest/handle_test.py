@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """Nodelets of the same manager read the map through its handle, whoever comes or goes first."""
 import tempfile
+import threading
 
 import rospy
 import rostest
+from sensor_msgs.msg import Image
 
 import make_bag_variants
 from manager_support import ManagerTest
@@ -12,6 +14,7 @@ from rostest_support import FLIGHT_BAG, PATIENT_QUEUES, wait_for
 FORM = ('depth', 'odometry')
 SCANS = 20
 PARAMETERS = {**PATIENT_QUEUES, 'resolution': 0.1}
+UNLOADS = 10
 
 
 class HandleTest(ManagerTest):
@@ -87,6 +90,29 @@ class HandleTest(ManagerTest):
         self.unload(probe)
         self.load_probe('last')
         self.assertEqual(self.report('last')['registered'], 0)
+
+    def test_unloads_while_callbacks_run(self):
+        # A callback reads an image from the wire. Images of 16 MB: one is read most of the time.
+        side = 2000
+        image = Image(height=side, width=side, encoding='32FC1', step=4 * side,
+                      data=bytes(4 * side * side))
+        publisher = rospy.Publisher('/depth/image', Image, queue_size=2)
+        ended = threading.Event()
+
+        def publish():
+            while not ended.wait(0.001):
+                publisher.publish(image)
+        thread = threading.Thread(target=publish)
+        thread.start()
+        self.addCleanup(publisher.unregister)
+        self.addCleanup(thread.join)
+        self.addCleanup(ended.set)
+        for _ in range(UNLOADS):
+            loader, listener = self.load_map(PARAMETERS)
+            wait_for(lambda: listener.input_count('scans received') > 2, 'images')
+            listener.close()
+            self.unload(loader)
+            self.assertTrue(self.manager.is_running(), 'the manager died')
 
 
 if __name__ == '__main__':
