@@ -11,7 +11,7 @@ namespace fiimap {
 struct ChangeSet {
   /// Became occupied (the paper's lower array).
   std::vector<VoxelIndex> lower;
-  /// Were occupied and became free (the paper's raise array).
+  /// Were occupied and became free (the paper's raise array), or unknown again.
   std::vector<VoxelIndex> raise;
   /// Were occupied when the window left them behind; outside of the window now.
   std::vector<VoxelIndex> forgotten;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "fiimap/change_set.h"
+#include "fiimap/decay.h"
 #include "fiimap/depth_projector.h"
 #include "fiimap/ignored_volumes.h"
 #include "fiimap/inflater.h"
@@ -54,7 +55,7 @@ struct StageTimes {
 struct ScanReport {
   ReadingCount readings;      ///< of the sensor, by kind
   RayCount rays;              ///< distinct ones that were cast
-  std::size_t raise = 0;      ///< voxels that became free; see ChangeSet
+  std::size_t raise = 0;      ///< voxels that ceased to be occupied; see ChangeSet
   std::size_t lower = 0;      ///< voxels that became occupied
   std::size_t forgotten = 0;  ///< occupied voxels that the window left behind
   VoxelBox update_box;        ///< voxels that it could change
@@ -148,6 +149,7 @@ class Mapper {
   SlidingGrid grid_;
   std::unique_ptr<Stages> stages_;
   IgnoredVolumes ignored_;
+  Decay decay_;
 
   RangeData scan_;
   ScanMask mask_;

@@ -82,6 +82,7 @@ struct MapperConfig : ReadingConfig {
   double body_size_z = 0.0;  ///< m
   bool clear_body = false;   ///< see IgnoredVolumes::freeBody()
 
+  double decay_time = 0.0;  ///< s; see Decay
   ///@{
   /// Probabilities of occupancy (eq. 6-8), 0 to 1.
   double p_hit = 0.65;

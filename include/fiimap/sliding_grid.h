@@ -143,6 +143,21 @@ class SlidingGrid {
   /// Allocates; the pointer holds until the window moves.
   std::int8_t* logOdds(int x, int y);
 
+  ///@{
+  /// Which voxels were seen of late, for Decay; kept only on demand, and not in the tiles, because
+  /// snapshots have no use for it.
+
+  /// Whether it is kept from now on. All that is known counts as seen now.
+  void keepSeen(bool keep);
+  /// Marks voxels of the columns (x, y), (x, y + 1), ..., which must lie in one tile, as seen.
+  /// Nothing happens where nothing is known.
+  /// \param voxels of `columns` columns in ring layout.
+  void markSeen(int x, int y, int columns, const std::uint64_t* voxels);
+  /// Makes the voxels of a slot's tile unknown that were not marked since the last such call for
+  /// this slot, and appends those that were occupied. A tile in which nothing is left is given up.
+  void forgetUnseen(int slot, std::vector<VoxelIndex>* obstacles);
+  ///@}
+
   /// Ring mask of the heights of [min_z, max_z) that lie in the window, layout().words() words.
   void heightMask(int min_z, int max_z, std::uint64_t* words) const;
 
@@ -164,9 +179,9 @@ class SlidingGrid {
   /// Memory held now, bytes.
   std::size_t memoryBytes() const;
   /// Memory held when every voxel of the window has been seen, bytes.
-  std::size_t worstCaseMemoryBytes() const { return worstCaseMemoryBytes(size_); }
+  std::size_t worstCaseMemoryBytes() const { return worstCaseMemoryBytes(size_, keeps_seen_); }
   /// The same of a grid with a window of this size, voxels.
-  static std::size_t worstCaseMemoryBytes(const VoxelIndex& size);
+  static std::size_t worstCaseMemoryBytes(const VoxelIndex& size, bool keeps_seen);
 
  private:
   struct Slot {
@@ -175,6 +190,8 @@ class SlidingGrid {
     /// be in a snapshot and must not change.
     std::uint64_t generation = 0;
     std::unique_ptr<std::int8_t[]> log_odds;
+    /// As a plane of the tile; null unless it is kept. Bits of unknown voxels mean nothing.
+    std::unique_ptr<std::uint64_t[]> seen;
     VoxelIndex origin = VoxelIndex::Zero();
     std::size_t live_position = 0;
     std::int32_t counts[kPlaneCount] = {0, 0, 0};  ///< set voxels of each plane
@@ -189,9 +206,9 @@ class SlidingGrid {
                  std::vector<VoxelIndex>* forgotten);
   void listObstacles(std::uint64_t word, int w, int x, int y,
                      std::vector<VoxelIndex>* obstacles) const;
-  std::size_t tileBytes() const { return tileBytes(layout_); }
+  std::size_t tileBytes() const { return tileBytes(layout_, keeps_seen_); }
   std::size_t logOddsBytes() const { return logOddsBytes(layout_); }
-  static std::size_t tileBytes(const ColumnLayout& layout);
+  static std::size_t tileBytes(const ColumnLayout& layout, bool keeps_seen);
   static std::size_t logOddsBytes(const ColumnLayout& layout);
 
   VoxelIndex size_;
@@ -199,6 +216,7 @@ class SlidingGrid {
   ColumnLayout layout_;
   TileRing ring_;
   const Kernels& kernels_;
+  bool keeps_seen_ = false;
   std::vector<Slot> slots_;
   std::vector<int> live_;
   std::vector<std::unique_ptr<std::int8_t[]>> spare_log_odds_;

@@ -91,7 +91,10 @@ Mapper::Mapper(const MapperConfig& config)
       lattice_(config.resolution),
       grid_(lattice_.sizeOf(config.mapSize())),
       stages_(std::make_unique<Stages>(config)),
-      ignored_(config.bodySize()) {}
+      ignored_(config.bodySize()),
+      decay_(config.decay_time) {
+  grid_.keepSeen(config.decay_time > 0.0);
+}
 
 Mapper::Stages::Stages(const MapperConfig& config)
     : ray_caster(VoxelLattice(config.resolution), config.ray_end_cut, config.min_hit_cover,
@@ -150,6 +153,7 @@ ScanReport Mapper::integrateScan(const ScanPose& pose, ScanReport report) {
   report.times_ms.raycast = stopwatch.lap();
 
   stages_->integrator.apply(mask_, &grid_, &changes_);
+  decay_.advance(pose.stamp_ns, &grid_, &changes_);
   report.times_ms.fuse = stopwatch.lap();
 
   stages_->inflater->update(changes_, &grid_);
@@ -193,6 +197,7 @@ std::shared_ptr<const Snapshot> Mapper::snapshot() {
 void Mapper::reset() {
   grid_.clear();
   ignored_.forgetSpheres();
+  decay_.restart();
   window_placed_ = false;
   stamp_ns_ = 0;
 }
@@ -213,6 +218,10 @@ void Mapper::reconfigure(const MapperConfig& config) {
   }
   stages_ = std::move(stages);
   ignored_.setBody(config.bodySize());
+  if (config.decay_time != config_.decay_time) {
+    decay_.setTime(config.decay_time);
+    grid_.keepSeen(config.decay_time > 0.0);
+  }
   config_ = config;
 }
 

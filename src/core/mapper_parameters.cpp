@@ -14,8 +14,9 @@ constexpr double kMaxCenter = 1e7;                              // m
 constexpr double kMaxRadius = 100.0;                            // m
 constexpr int kMaxReach = 64;                                   // voxels
 constexpr double kMaxWindowVoxels = 1e10;
-constexpr double kMaxBody = 10.0;   // m
-constexpr double kMaxMemory = 1e6;  // MB
+constexpr double kMaxBody = 10.0;          // m
+constexpr double kMaxDecayTime = 86400.0;  // s
+constexpr double kMaxMemory = 1e6;         // MB
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -96,6 +97,9 @@ std::vector<Parameter> occupancyParameters(MapperConfig* c) {
                       "extent of the vehicle's body, in which returns are ignored; 0: none"),
       flagParameter("clear_body", &c->clear_body,
                     "every scan sees the voxels in the vehicle's body as free"),
+
+      numberParameter("decay_time", &c->decay_time, 0.0, kMaxDecayTime, "s",
+                      "what no scan saw for one to two such times is unknown again; 0: never"),
 
       numberParameter("p_hit", &c->p_hit, 0.501, 0.999, "",
                       "probability of occupancy after one hit (eq. 6)"),

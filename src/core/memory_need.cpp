@@ -35,7 +35,8 @@ VoxelIndex updateSize(const MapperConfig& config) {
 }  // namespace
 
 double memoryNeed(const MapperConfig& config) {
-  return static_cast<double>(SlidingGrid::worstCaseMemoryBytes(windowSize(config))) +
+  const bool keeps_seen = config.decay_time > 0.0;
+  return static_cast<double>(SlidingGrid::worstCaseMemoryBytes(windowSize(config), keeps_seen)) +
          static_cast<double>(ScanMask::memoryBytes(updateSize(config)));
 }
 

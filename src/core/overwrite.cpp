@@ -37,6 +37,7 @@ class RowWriter {
     if (state_ != Occupancy::kUnknown) writeLogOdds(x, y, words);
     grid_.writeColumns(Plane::kKnown, x, y, columns, known_.data());
     grid_.writeColumns(Plane::kOccupied, x, y, columns, occupied_.data());
+    for (int c = 0; c < columns; ++c) grid_.markSeen(x, y + c, 1, heights_.data());
   }
 
  private:

@@ -93,6 +93,8 @@ void ScanIntegrator::applyRow(const ScanMask& mask, int mask_x, int mask_y, int 
   listFlips(x, y, occupied_before, words, *grid, changes);
   grid->writeColumns(Plane::kKnown, x, y, columns, known_.data());
   grid->writeColumns(Plane::kOccupied, x, y, columns, occupied_.data());
+  grid->markSeen(x, y, columns, hit_.data());
+  grid->markSeen(x, y, columns, free_.data());
 }
 
 void ScanIntegrator::convert(const LogOdds& from, SlidingGrid* grid, ChangeSet* changes) {

@@ -171,6 +171,43 @@ std::int8_t* SlidingGrid::logOdds(int x, int y) {
   return slot.log_odds.get() + static_cast<std::size_t>(columnInTile(x, y)) * layout_.bits();
 }
 
+void SlidingGrid::keepSeen(bool keep) {
+  keeps_seen_ = keep;
+  for (const int index : live_) {
+    Slot& slot = slots_[index];
+    slot.seen.reset();
+    if (!keep) continue;
+    slot.seen.reset(new std::uint64_t[planeWords(layout_)]);
+    const std::uint64_t* const known = slot.tile.get() + offsetInTile(Plane::kKnown, 0, 0, layout_);
+    std::copy_n(known, planeWords(layout_), slot.seen.get());
+  }
+}
+
+void SlidingGrid::markSeen(int x, int y, int columns, const std::uint64_t* voxels) {
+  std::uint64_t* const plane = slots_[ring_.slotOf(x, y)].seen.get();
+  if (plane == nullptr) return;
+  const int words = layout_.words();
+  std::uint64_t* const seen = plane + static_cast<std::size_t>(columnInTile(x, y)) * words;
+  for (int w = 0; w < columns * words; ++w) seen[w] |= voxels[w];
+}
+
+void SlidingGrid::forgetUnseen(int index, std::vector<VoxelIndex>* obstacles) {
+  Slot& slot = slots_[index];
+  if (slot.seen == nullptr) return;
+  if (std::all_of(std::begin(slot.counts), std::end(slot.counts), [](int n) { return n == 0; })) {
+    drop(index);
+    return;
+  }
+  const int row_words = kTileSide * layout_.words();
+  for (int row = 0; row < kTileSide; ++row) {
+    const std::uint64_t* const seen = slot.seen.get() + static_cast<std::size_t>(row) * row_words;
+    for (const Plane plane : {Plane::kKnown, Plane::kOccupied}) {
+      forgetRow(plane, slot.origin.x() + row, seen, &slot, obstacles);
+    }
+  }
+  std::fill_n(slot.seen.get(), planeWords(layout_), 0);
+}
+
 void SlidingGrid::heightMask(int min_z, int max_z, std::uint64_t* words) const {
   std::fill_n(words, layout_.words(), 0);
   const int end_z = std::min(max_z, window_.max.z());
@@ -203,6 +240,7 @@ SlidingGrid::Slot& SlidingGrid::liveSlot(int x, int y) {
     slot.log_odds = std::move(spare_log_odds_.back());
     spare_log_odds_.pop_back();
   }
+  if (keeps_seen_) slot.seen.reset(new std::uint64_t[planeWords(layout_)]());
   slot.live_position = live_.size();
   live_.push_back(index);
   return slot;
@@ -221,6 +259,7 @@ std::uint64_t* SlidingGrid::writableTile(Slot* slot) {
 void SlidingGrid::drop(int slot_index) {
   Slot& slot = slots_[slot_index];
   slot.tile.reset();
+  slot.seen.reset();
   std::fill(std::begin(slot.counts), std::end(slot.counts), 0);
   spare_log_odds_.push_back(std::move(slot.log_odds));
   const int moved = live_.back();
@@ -233,8 +272,9 @@ std::size_t SlidingGrid::logOddsBytes(const ColumnLayout& layout) {
   return static_cast<std::size_t>(kTileColumns) * layout.bits();
 }
 
-std::size_t SlidingGrid::tileBytes(const ColumnLayout& layout) {
-  return tileWords(layout) * sizeof(std::uint64_t) + logOddsBytes(layout);
+std::size_t SlidingGrid::tileBytes(const ColumnLayout& layout, bool keeps_seen) {
+  const std::size_t words = tileWords(layout) + (keeps_seen ? planeWords(layout) : 0);
+  return words * sizeof(std::uint64_t) + logOddsBytes(layout);
 }
 
 std::size_t SlidingGrid::memoryBytes() const {
@@ -242,11 +282,11 @@ std::size_t SlidingGrid::memoryBytes() const {
          spare_log_odds_.size() * logOddsBytes();
 }
 
-std::size_t SlidingGrid::worstCaseMemoryBytes(const VoxelIndex& size) {
+std::size_t SlidingGrid::worstCaseMemoryBytes(const VoxelIndex& size, bool keeps_seen) {
   const std::size_t tiles_x = TileRing::tilesAcross(size.x());
   const std::size_t tiles_y = TileRing::tilesAcross(size.y());
   const std::size_t slots = TileRing(size.x(), size.y()).slots();
-  return slots * sizeof(Slot) + tiles_x * tiles_y * tileBytes(ColumnLayout(size.z()));
+  return slots * sizeof(Slot) + tiles_x * tiles_y * tileBytes(ColumnLayout(size.z()), keeps_seen);
 }
 
 }  // namespace fiimap

@@ -66,6 +66,7 @@ std::vector<FieldOfParameter> fields() {
       number("body_size_x", &C::body_size_x, 0.7),
       number("body_size_y", &C::body_size_y, 0.6),
       number("body_size_z", &C::body_size_z, 0.3),
+      number("decay_time", &C::decay_time, 12.5),
       choice("clear_body", &C::clear_body, "true", true),
       number("p_hit", &C::p_hit, 0.60),
       number("p_miss", &C::p_miss, 0.45),
@@ -145,7 +146,7 @@ TEST(MapperParametersTest, RangesAreEnforcedAsDescribed) {
     }
     EXPECT_EQ(parameter.get(), in_range);
   }
-  EXPECT_EQ(numeric, 32) << "numeric parameters whose description names no range";
+  EXPECT_EQ(numeric, 33) << "numeric parameters whose description names no range";
 }
 
 TEST(MapperParametersTest, RefuseTheWrongType) {
@@ -182,7 +183,7 @@ TEST(MapperConfigTest, ValidateRefusesNumbersThatAreNotFinite) {
       EXPECT_TRUE(contains(refusal(config), field.name)) << field.name << " = " << bad;
     }
   }
-  EXPECT_EQ(numbers, 30);
+  EXPECT_EQ(numbers, 31);
 }
 
 TEST(MapperConfigTest, ValidateRefusesNumbersOutOfRange) {

@@ -29,7 +29,8 @@ class Flight {
     pose.T_W_S.linear() =
         Eigen::AngleAxisd(uniformReal(random_, -3.0, 3.0), randomPoint(1.0).normalized())
             .toRotationMatrix();
-    pose.stamp_ns = ++stamp_;
+    stamp_ += chance(random_, 0.05) ? uniformInt(random_, 2, 40) : 1;
+    pose.stamp_ns = stamp_;
     return pose;
   }
 

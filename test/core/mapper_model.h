@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,6 +60,7 @@ class MapperModel {
                  const VoxelBox& window) {
     forgetOutside(window);
     lowered_ = raised_ = 0;
+    tick(pose.stamp_ns);
     const VoxelBox box = updateBox(pose, window);
     if (box.empty()) return;
     RayOracle oracle(box, config_.ray_end_cut, config_.round_rays);
@@ -77,20 +81,48 @@ class MapperModel {
       forEachVoxel(box, [&](const VoxelIndex& v) {
         if (!window.contains(v)) return;
         ++voxels;
-        values_.erase(v);
-        if (state == Occupancy::kFree) values_[v] = log_odds_.min;
-        if (state == Occupancy::kOccupied) values_[v] = log_odds_.max;
+        forget(v);
+        if (state == Occupancy::kUnknown) return;
+        values_[v] = state == Occupancy::kOccupied ? log_odds_.max : log_odds_.min;
+        seen_[v] = {clock_, clock_};
       });
     }
     return voxels;
   }
 
-  void reset() { values_.clear(); }
+  void reset() {
+    values_.clear();
+    seen_.clear();
+    newest_stamp_.reset();
+  }
+
+  /// Which voxels decay forgets is decided by whose turn it is: that is taken from the grid, within
+  /// the limits that hold for each voxel. Call after integrate().
+  ::testing::AssertionResult decay(const SlidingGrid& grid) {
+    const std::int64_t time = decayTime();
+    for (const auto& [v, seen] : std::map<VoxelIndex, Seen, VoxelLess>(seen_)) {
+      const bool is_kept = grid.test(Plane::kKnown, v);
+      const bool may_go = time > 0 && clock_ > seen.not_before + time;
+      const bool must_go = time > 0 && clock_ >= seen.at + 2 * time;
+      if (is_kept ? must_go : !may_go) {
+        return ::testing::AssertionFailure()
+               << v.transpose() << (is_kept ? " is kept " : " is forgotten ") << clock_ - seen.at
+               << " ns after it was seen, decay time " << time << " ns";
+      }
+      if (is_kept) continue;
+      if (values_.at(v) >= log_odds_.threshold) ++raised_;
+      forget(v);
+    }
+    return ::testing::AssertionSuccess();
+  }
 
   /// Voxels keep their log-odds to the nearest step, of two that are as near the one farther from
   /// 0, within the limits.
   void reconfigure(const MapperConfig& config) {
     const LogOdds before = log_odds_;
+    if (config.decay_time != config_.decay_time) {
+      for (auto& [v, seen] : seen_) seen = {clock_, clock_};
+    }
     config_ = config;
     log_odds_ = LogOdds(config);
     for (auto& [v, value] : values_) value = nearestStep(value * before.unit);
@@ -124,6 +156,23 @@ class MapperModel {
   }
 
  private:
+  /// When a scan last saw a voxel: at a time of clock_, or at any later than that of the scan
+  /// before.
+  struct Seen {
+    std::int64_t not_before, at;
+  };
+
+  std::int64_t decayTime() const { return std::llround(config_.decay_time * 1e9); }
+
+  /// A gap between two scans counts as one decay time at most.
+  void tick(std::int64_t stamp) {
+    before_ = clock_;
+    if (newest_stamp_ && stamp > *newest_stamp_) {
+      clock_ += std::min(stamp - *newest_stamp_, decayTime());
+    }
+    newest_stamp_ = std::max(stamp, newest_stamp_.value_or(stamp));
+  }
+
   VoxelBox updateBox(const ScanPose& pose, const VoxelBox& window) const {
     const VoxelLattice lattice(config_.resolution);
     const VoxelIndex size = lattice.sizeOf(config_.localUpdateRange());
@@ -152,6 +201,7 @@ class MapperModel {
   }
 
   void observe(const VoxelIndex& v, bool is_hit) {
+    seen_[v] = {before_, clock_};
     int& value = values_[v];
     const bool before = value >= log_odds_.threshold;
     value = std::clamp<int>(value + (is_hit ? log_odds_.hit : log_odds_.miss), log_odds_.min,
@@ -174,16 +224,24 @@ class MapperModel {
 
   void forgetOutside(const VoxelBox& window) {
     forgotten_ = 0;
-    for (auto it = values_.begin(); it != values_.end();) {
-      const bool stays = window.contains(it->first);
-      if (!stays && it->second >= log_odds_.threshold) ++forgotten_;
-      it = stays ? std::next(it) : values_.erase(it);
+    for (const auto& [v, value] : std::map<VoxelIndex, int, VoxelLess>(values_)) {
+      if (window.contains(v)) continue;
+      if (value >= log_odds_.threshold) ++forgotten_;
+      forget(v);
     }
+  }
+
+  void forget(const VoxelIndex& v) {
+    values_.erase(v);
+    seen_.erase(v);
   }
 
   MapperConfig config_;
   LogOdds log_odds_;
   std::map<VoxelIndex, int, VoxelLess> values_;
+  std::map<VoxelIndex, Seen, VoxelLess> seen_;
+  std::optional<std::int64_t> newest_stamp_;
+  std::int64_t clock_ = 0, before_ = 0;  // ns, at the newest scan and the one before it
   std::size_t lowered_ = 0, raised_ = 0, forgotten_ = 0;
 };
 

@@ -20,6 +20,7 @@ using test::Flight;
 using test::inSensorFrame;
 using test::MapperModel;
 
+constexpr double kStampStep = 1e-9;  // s, of a Flight
 constexpr ElementDefinition kElement{ElementShape::kBall, 500, 250};
 
 MapperConfig randomConfig(test::Random& random) {
@@ -45,6 +46,7 @@ MapperConfig randomConfig(test::Random& random) {
   config.map_mode = test::chance(random, 0.2) ? MapMode::kFixed : MapMode::kSliding;
   const bool frees = test::chance(random, 0.7);
   config.beyond_max_depth = frees ? ReadingPolicy::kFree : ReadingPolicy::kIgnore;
+  if (test::chance(random, 0.4)) config.decay_time = test::uniformInt(random, 1, 12) * kStampStep;
   return config;
 }
 
@@ -79,11 +81,14 @@ TEST_P(MapperModelTest, EveryVoxelIsAsTheModelSays) {
     const VoxelBox window = mapper.grid().window();
     model.integrate(pose, {}, window);
     ASSERT_EQ(slide.forgotten, model.forgotten());
+    ASSERT_TRUE(model.decay(mapper.grid()));
+    ASSERT_EQ(slide.raise, model.raised());
 
     const std::vector<Eigen::Vector3d> points_W = exactPoints(model, pose, window, flight.look());
     const ScanReport report = mapper.integrate(asScan(pose, points_W), pose);
     model.integrate(pose, points_W, window);
     ASSERT_EQ(mapper.grid().window(), window) << "the vehicle has not moved";
+    ASSERT_TRUE(model.decay(mapper.grid()));
     ASSERT_TRUE(model.equals(mapper.grid(), kElement));
     ASSERT_EQ(report.lower, model.lowered());
     ASSERT_EQ(report.raise, model.raised());

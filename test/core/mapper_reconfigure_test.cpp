@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,6 +27,7 @@ using test::smallConfig;
 using test::State;
 
 constexpr int kResolutionMm = 250;
+constexpr double kStampStep = 1e-9;  // s, of a Flight
 
 void setParameter(const std::string& name, const std::string& value, MapperConfig* config) {
   EXPECT_TRUE(applyParameters({{name, value}}, mapperParameters(config)).empty()) << name;
@@ -65,6 +67,7 @@ void tuneAtRandom(test::Random& random, const ElementDefinition& element, Mapper
   config->inflation_radius = element.radius();
   config->inflation_shape = element.shape;
   config->inflation_method = static_cast<InflationMethod>(test::uniformInt(random, 0, 2));
+  config->decay_time = std::max(test::uniformInt(random, -10, 10), 0) * kStampStep;
 }
 
 ElementDefinition elementAtRandom(test::Random& random) {
@@ -102,9 +105,11 @@ TEST(MapperReconfigureTest, EveryVoxelIsAsTheModelSaysWhateverChangesInFlight) {
       mapper.integrate(PointScan(), pose);
       const VoxelBox window = mapper.grid().window();
       model.integrate(pose, {}, window);
+      ASSERT_TRUE(model.decay(mapper.grid()));
       const auto points_W = test::exactPoints(model, pose, window, flight.look());
       const ScanReport report = mapper.integrate(test::asScan(pose, points_W), pose);
       model.integrate(pose, points_W, window);
+      ASSERT_TRUE(model.decay(mapper.grid()));
       ASSERT_TRUE(model.equals(mapper.grid(), element));
       ASSERT_EQ(report.lower, model.lowered());
       ASSERT_EQ(report.raise, model.raised());
@@ -224,6 +229,7 @@ const std::map<std::string, std::string>& otherValues() {
       {"body_size_y", "2"},
       {"body_size_z", "2"},
       {"clear_body", "true"},
+      {"decay_time", "2e-9"},
       {"p_hit", "0.55"},
       {"p_miss", "0.45"},
       {"p_min", "0.25"},

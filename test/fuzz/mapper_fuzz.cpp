@@ -1,5 +1,6 @@
 // The whole map under any sequence of operations, against the model of the property tests.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -17,6 +18,7 @@ using test::MapperModel;
 
 constexpr int kResolutionMm = 250;
 constexpr int kMostOperations = 24;
+constexpr double kStampStep = 1e-9;  // s
 
 ElementDefinition takeElement(ByteSource* bytes) {
   constexpr int kMostRadiusMm = 1500;  // larger than most of the windows below
@@ -39,6 +41,7 @@ void takeTunable(MapperConfig* config, ByteSource* bytes) {
   config->inflation_method = static_cast<InflationMethod>(bytes->integer(0, 2));
   config->bfs_connectivity = bytes->flag() ? 6 : bytes->flag() ? 18 : 26;
   config->beyond_max_depth = bytes->flag() ? ReadingPolicy::kIgnore : ReadingPolicy::kFree;
+  config->decay_time = std::max(bytes->integer(-20, 20), 0) * kStampStep;
 }
 
 MapperConfig takeConfig(const ElementDefinition& element, ByteSource* bytes) {
@@ -172,7 +175,7 @@ class Session {
   ScanPose slide() {
     const ScanPose pose = takePose();
     mapper_.integrate(PointScan(), pose);
-    model_.integrate(pose, {}, mapper_.grid().window());
+    integrateInModel(pose, {});
     return pose;
   }
 
@@ -196,7 +199,7 @@ class Session {
     }
     for (int times = bytes_.integer(1, 3); times > 0; --times) {
       const ScanReport report = mapper_.integrate(scan, pose);
-      model_.integrate(pose, points_W, mapper_.grid().window());
+      integrateInModel(pose, points_W);
       require(report.lower == model_.lowered() && report.raise == model_.raised(),
               "the report counts other changes than the model");
     }
@@ -229,7 +232,13 @@ class Session {
     mapper_.integrate(
         {pixels.data(), DepthImage::Format::kFloat32, width, height, width * sizeof(float)}, camera,
         pose);
+    integrateInModel(pose, points_W);
+  }
+
+  void integrateInModel(const ScanPose& pose, const std::vector<Eigen::Vector3d>& points_W) {
     model_.integrate(pose, points_W, mapper_.grid().window());
+    const auto in_time = model_.decay(mapper_.grid());
+    require(static_cast<bool>(in_time), in_time.message());
   }
 
   ByteSource& bytes_;

@@ -24,6 +24,7 @@ using test::Random;
 using test::uniformInt;
 using test::uniformReal;
 
+constexpr double kStampStep = 1e-9;  // s, of a Journey
 constexpr int kResolutionMm = 250;
 constexpr double kReports = 20.0;
 constexpr double kWarmUp = 0.2;  // of the way, until everything has been allocated once
@@ -158,6 +159,7 @@ class Soak {
     small_.integrate(PointScan(), pose);
     const VoxelBox window = small_.grid().window();
     model_.integrate(pose, {}, window);
+    checkDecay();
 
     PointScan exact, all;
     std::vector<Eigen::Vector3d> points_W;
@@ -171,6 +173,7 @@ class Soak {
     }
     const ScanReport report = small_.integrate(exact, pose);
     model_.integrate(pose, points_W, window);
+    checkDecay();
     if (report.lower != model_.lowered() || report.raise != model_.raised()) {
       fail("other changes than the model's");
     }
@@ -178,6 +181,11 @@ class Soak {
     changes_ += report.changeScore();
     if (chance(random_, 0.02)) verifySmall();
     if (chance(random_, 0.005)) verifyLarge();
+  }
+
+  void checkDecay() {
+    const auto in_time = model_.decay(small_.grid());
+    if (!in_time) fail(in_time.message());
   }
 
   void reset() {
@@ -201,6 +209,7 @@ class Soak {
       config->p_hit = uniformReal(random_, 0.55, 0.9);
       config->p_max = uniformReal(random_, 0.9, 0.99);
       config->p_occ = uniformReal(random_, 0.55, 0.85);
+      config->decay_time = chance(random_, 0.5) ? uniformInt(random_, 10, 500) * kStampStep : 0.0;
     }
     small_.reconfigure(small);
     model_.reconfigure(small);
