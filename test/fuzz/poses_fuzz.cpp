@@ -1,4 +1,8 @@
-// Poses, transforms, scans and clocks in any order, with any stamp, frame and number.
+// Poses, transforms, scans of one sensor or several, and clocks in any order, with any stamp, frame
+// and number.
+
+#include <algorithm>
+#include <string>
 
 #include <boost/make_shared.hpp>
 
@@ -12,7 +16,7 @@ constexpr int kMostMessages = 64;
 class Traffic {
  public:
   Traffic(const NodeConfig& config, ByteSource* bytes)
-      : bytes_(*bytes), feed_(smallMap(), config) {}
+      : bytes_(*bytes), sensors_(config.allSensors().size()), feed_(mapOf(config), config) {}
 
   void send() {
     switch (bytes_.integer(0, 7)) {
@@ -39,7 +43,7 @@ class Traffic {
         if (bytes_.integer(0, 15) == 0) feed_.synchronizer().restart("the clock went back");
         break;
       default:
-        feed_.add(cloud());
+        feed_.add(cloud(), bytes_.integer(0, sensors_ - 1));
     }
     const ScanCounters& counters = feed_.counters();
     require(counters.received ==
@@ -50,6 +54,12 @@ class Traffic {
   void finish() { feed_.finish(); }
 
  private:
+  static MapperConfig mapOf(const NodeConfig& node) {
+    MapperConfig config = smallMap();
+    config.sensors.assign(node.sensors.size(), config);
+    return config;
+  }
+
   ros::Time takeStamp() {
     constexpr std::uint32_t kStart = 1600000000;  // s
     switch (bytes_.integer(0, 15)) {
@@ -145,6 +155,7 @@ class Traffic {
   }
 
   ByteSource& bytes_;
+  int sensors_;
   ScanFeed feed_;
   int now_ms_ = 0;
 };
@@ -159,6 +170,14 @@ NodeConfig takeNode(ByteSource* bytes) {
   config.pose_history = bytes->real(1.0, 5.0);
   config.scan_queue_size = bytes->integer(1, 5);
   if (bytes->flag()) config.body_frame = "body";
+  constexpr int kMostSensors = 3;
+  for (int i = std::max(bytes->integer(-2, kMostSensors), 0); i > 0; --i) {
+    SensorConfig sensor = config;
+    sensor.name = "sensor_" + std::to_string(i);
+    sensor.extrinsics = static_cast<ExtrinsicsSource>(bytes->integer(0, 1));
+    sensor.time_offset = bytes->anyDouble(-1.0, 1.0);
+    config.sensors.push_back(sensor);
+  }
   return config;
 }
 

@@ -40,9 +40,9 @@ class ScanFeed : public ScanListener {
 
   ScanSynchronizer& synchronizer() { return synchronizer_; }
   ScanCounters& counters() { return counters_; }
-  void add(const ScanMessage& scan) {
+  void add(const ScanMessage& scan, std::size_t sensor = 0) {
     ++counters_.received;
-    synchronizer_.add(scan);
+    synchronizer_.add(scan, Moment(), sensor);
   }
 
   void finish() {
