@@ -20,11 +20,6 @@ constexpr std::int64_t kSecond = 1000000000, kStep = kSecond / 10;
 constexpr double kDecayTime = 2.0;  // s
 constexpr std::int64_t kDecaySteps = 20;
 
-const Vector kOrigin(0.1, 0.1, 0.1);
-const PointScan kAhead{{{2.0f, 0.0f, 0.0f}}}, kBehind{{{-2.0f, 0.0f, 0.0f}}};
-const Vector kObstacle = kOrigin + Vector(2.0, 0.0, 0.0);
-const Vector kFree = kOrigin + Vector(1.0, 0.0, 0.0);
-
 MapperConfig decayingConfig() {
   MapperConfig config = smallConfig();
   config.decay_time = kDecayTime;
@@ -42,6 +37,11 @@ class DecayTest : public ::testing::Test {
 
   Occupancy at(const Vector& point_W) { return mapper_.snapshot()->occupancy(point_W); }
   Inflation inflatedAt(const Vector& point_W) { return mapper_.snapshot()->inflation(point_W); }
+
+  const Vector kOrigin{0.1, 0.1, 0.1};
+  const PointScan kAhead{{{2.0f, 0.0f, 0.0f}}}, kBehind{{{-2.0f, 0.0f, 0.0f}}};
+  const Vector kObstacle = kOrigin + Vector(2.0, 0.0, 0.0);
+  const Vector kFree = kOrigin + Vector(1.0, 0.0, 0.0);
 
   Mapper mapper_;
   std::int64_t stamp_ = 0;

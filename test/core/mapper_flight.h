@@ -12,6 +12,8 @@ namespace fiimap::test {
 /// A vehicle that flies through a world of few obstacles, so that it sees them again and again.
 class Flight {
  public:
+  static constexpr double kStampStep = 1e-9;  // s, most often
+
   explicit Flight(Random* random) : random_(*random), position_(randomPoint(1.0)) {
     for (int i = 0; i < 25; ++i) obstacles_.push_back(position_ + randomPoint(kSight));
   }

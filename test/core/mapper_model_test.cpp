@@ -20,7 +20,6 @@ using test::Flight;
 using test::inSensorFrame;
 using test::MapperModel;
 
-constexpr double kStampStep = 1e-9;  // s, of a Flight
 constexpr ElementDefinition kElement{ElementShape::kBall, 500, 250};
 
 MapperConfig randomConfig(test::Random& random) {
@@ -46,7 +45,7 @@ MapperConfig randomConfig(test::Random& random) {
   config.map_mode = test::chance(random, 0.2) ? MapMode::kFixed : MapMode::kSliding;
   const bool frees = test::chance(random, 0.7);
   config.beyond_max_depth = frees ? ReadingPolicy::kFree : ReadingPolicy::kIgnore;
-  if (test::chance(random, 0.4)) config.decay_time = test::uniformInt(random, 1, 12) * kStampStep;
+  if (test::chance(random, 0.4)) config.decay_time = test::uniformInt(random, 1, 12) * Flight::kStampStep;
   return config;
 }
 

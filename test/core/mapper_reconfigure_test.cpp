@@ -27,7 +27,6 @@ using test::smallConfig;
 using test::State;
 
 constexpr int kResolutionMm = 250;
-constexpr double kStampStep = 1e-9;  // s, of a Flight
 
 void setParameter(const std::string& name, const std::string& value, MapperConfig* config) {
   EXPECT_TRUE(applyParameters({{name, value}}, mapperParameters(config)).empty()) << name;
@@ -67,7 +66,7 @@ void tuneAtRandom(test::Random& random, const ElementDefinition& element, Mapper
   config->inflation_radius = element.radius();
   config->inflation_shape = element.shape;
   config->inflation_method = static_cast<InflationMethod>(test::uniformInt(random, 0, 2));
-  config->decay_time = std::max(test::uniformInt(random, -10, 10), 0) * kStampStep;
+  config->decay_time = std::max(test::uniformInt(random, -10, 10), 0) * test::Flight::kStampStep;
 }
 
 ElementDefinition elementAtRandom(test::Random& random) {
