@@ -87,6 +87,7 @@ void MappingDiagnostics::reportInputs(Status& status) {
   status.add("poses, transforms and camera infos displaced", counters.displaced_inputs);
   for (std::size_t i = 0; i < counters.sensors.size(); ++i) {
     const std::string prefix = inputs_.topics().sensors[i].name + ": ";
+    addTopics(prefix, inputs_.topics().sensors[i], &status);
     addRates(prefix, before_.sensors[i], now_.sensors[i], &status);
     addCounters(prefix, counters.sensors[i], &status);
   }
@@ -96,6 +97,12 @@ void MappingDiagnostics::addRate(const std::string& key, std::uint64_t before, s
                                  Status* status) const {
   const double seconds = secondsBetween(before_.time, now_.time);
   status->addf(key, "%.1f", seconds > 0.0 ? static_cast<double>(now - before) / seconds : 0.0);
+}
+
+void MappingDiagnostics::addTopics(const std::string& prefix, const SensorTopics& topics,
+                                   Status* status) {
+  status->add(prefix + "scan topic", topics.scans);
+  if (!topics.camera_infos.empty()) status->add(prefix + "camera_info topic", topics.camera_infos);
 }
 
 void MappingDiagnostics::addRates(const std::string& prefix, const SensorTotals& before,

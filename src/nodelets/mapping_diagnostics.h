@@ -44,6 +44,7 @@ class MappingDiagnostics {
   void reportMap(Status& status);
   void addRate(const std::string& key, std::uint64_t before, std::uint64_t now,
                Status* status) const;
+  static void addTopics(const std::string& prefix, const SensorTopics& topics, Status* status);
   void addRates(const std::string& prefix, const SensorTotals& before, const SensorTotals& now,
                 Status* status) const;
   static void addCounters(const std::string& prefix, const ScanCounters& counters, Status* status);
