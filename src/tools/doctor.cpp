@@ -1,6 +1,8 @@
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <boost/program_options.hpp>
+#include <cstddef>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -38,14 +40,17 @@ struct Options {
 po::options_description describe(Options* options) {
   fiimap::DoctorWishes& wishes = options->wishes;
   const auto topic = [](std::string* name) { return po::value(name)->value_name("TOPIC"); };
+  const auto topics = [](std::vector<std::string>* names) {
+    return po::value(names)->value_name("TOPIC")->composing();
+  };
   po::options_description description("Options");
   description.add_options()("help,h", "this text")(
       "seconds", po::value(&options->seconds)->value_name("S"),
       "how long to look (5 at the graph, 30 at a bag)")(
       "start", po::value(&options->start)->value_name("S"), "where to begin in the bag (0)")(
-      "depth-image", topic(&wishes.depth_image), "depth images")(
-      "camera-info", topic(&wishes.camera_info), "their camera_info")(
-      "points", topic(&wishes.points), "point clouds, instead of depth images")(
+      "depth-image", topics(&wishes.depth_images), "depth images; again for another camera")(
+      "camera-info", topics(&wishes.camera_infos), "their camera_info, in the same order")(
+      "points", topics(&wishes.points), "point clouds; alone: instead of depth images")(
       "odom", topic(&wishes.odom), "poses: nav_msgs/Odometry")("pose", topic(&wishes.pose),
                                                                "poses: geometry_msgs/PoseStamped")(
       "transform", topic(&wishes.transform), "poses: geometry_msgs/TransformStamped")(
@@ -61,8 +66,8 @@ void requireSensible(const Options& options, const po::variables_map& values) {
   }
   if (!(options.start >= 0.0)) throw std::invalid_argument("--start must be 0 or above");
   const fiimap::DoctorWishes& wishes = options.wishes;
-  if (!wishes.depth_image.empty() && !wishes.points.empty()) {
-    throw std::invalid_argument("--depth-image and --points exclude each other");
+  if (wishes.camera_infos.size() > std::max<std::size_t>(wishes.depth_images.size(), 1)) {
+    throw std::invalid_argument("--camera-info is named more often than --depth-image");
   }
   const int poses = static_cast<int>(!wishes.odom.empty()) +
                     static_cast<int>(!wishes.pose.empty()) +

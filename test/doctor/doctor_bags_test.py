@@ -18,6 +18,8 @@ from geometry_msgs.msg import PoseStamped
 from rosgraph_msgs.msg import Clock
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / 'test' / 'rostest'))
+from make_bag_variants import write_two_sensors  # noqa: E402
 FLIGHT = SOURCE / 'data' / 'synth_flight_excerpt.bag'
 COW = SOURCE / 'data' / 'cow_and_lady_excerpt.bag'
 DOCTOR = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else ''
@@ -199,6 +201,20 @@ class DoctorBagsTest(unittest.TestCase):
         self.check(self.ask(self.bag), NOTHING_WRONG, ['holds /clock'],
                    [f"bag_topics:='{IMAGE} {INFO} /odom /tf /tf_static'"])
 
+    def test_a_camera_and_a_lidar(self):
+        write_two_sensors(FLIGHT, self.bag, SCANS)
+        self.check(self.ask(self.bag), NOTHING_WRONG,
+                   ["One map is made of 2 sensors: 'front' .*, 'lidar' .*on /lidar/points",
+                    'map: front 6 of 6, lidar 6 of 6'],
+                   ["topics:='front/depth/image=/front/depth/image_raw "
+                    'front/depth/camera_info=/front/depth/camera_info lidar/points=/lidar/points\'',
+                    'sensors: [front, lidar], lidar: {', 'sensor: points'])
+        self.check(self.ask(self.bag, '--points', '/lidar/points'), NOTHING_WRONG, ['6 of the 6'],
+                   ['sensor:=points', 'points:=/lidar/points'])
+        self.check(self.ask(self.bag, '--points', '/lidar/points', '--depth-image',
+                            '/front/depth/image_raw', '--set', 'resolution=0.2'), NOTHING_WRONG,
+                   ['12 of the 12'], ['resolution: 0.2, sensors: [front, lidar]'])
+
     def test_what_cannot_be_looked_at(self):
         empty = self.bag.parent / 'empty.bag'
         empty.write_text('This is no bag.')
@@ -206,6 +222,8 @@ class DoctorBagsTest(unittest.TestCase):
                 (['nowhere.bag'], 'nowhere.bag'), ([empty], 'cannot read the bag'),
                 ([FLIGHT, '--odom', '/vio'], 'there is no such topic.*: /odom'),
                 ([FLIGHT, '--points', IMAGE], 'its type is sensor_msgs/Image'),
+                ([FLIGHT, '--points', '/odom', '--points', '/tf'], 'its type is nav_msgs/Odometry'),
+                ([FLIGHT, '--camera-info', INFO, '--camera-info', INFO], 'more often'),
                 ([FLIGHT, '--set', 'resolutoin=1'], 'unknown parameter resolutoin'),
                 ([FLIGHT, '--set', 'resolution=-1'], 'resolution.*-1'),
                 ([FLIGHT, '--set', 'resolution'], 'name=value'),

@@ -155,7 +155,7 @@ TEST(ImageChecksTest, TellColourFromDepth) {
   expectFinding(vehicle.diagnosis(), Severity::kError,
                 {"no depth images", "/camera/color/image_raw (rgb8)"});
   DoctorWishes wishes;
-  wishes.depth_image = "/camera/color/image_raw";
+  wishes.depth_images = {"/camera/color/image_raw"};
   expectFinding(vehicle.diagnosis(wishes), Severity::kError, {"'rgb8'", "no depth image"});
 }
 
@@ -197,7 +197,7 @@ TEST(ImageChecksTest, ChooseAmongSeveral) {
   EXPECT_EQ(diagnosis.setup.depth_image, "/camera/depth/image_rect_raw");  // has camera_info
   expectFinding(diagnosis, Severity::kNote, {"Of several depth images", "/a/image"});
   DoctorWishes wishes;
-  wishes.depth_image = "/a/image";
+  wishes.depth_images = {"/a/image"};
   EXPECT_EQ(vehicle.diagnosis(wishes).setup.depth_image, "/a/image");
 }
 

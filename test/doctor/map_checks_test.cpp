@@ -73,13 +73,6 @@ TEST(MapChecksTest, PassOnWhatTheMapSays) {
   EXPECT_EQ(diagnosis.count(Severity::kError), 0u);
 }
 
-TEST(MapChecksTest, LookAtOneOfSeveralSensors) {
-  SeenMap seen;
-  seen.map.parameters["sensors"] = "front left";
-  expectFinding(seen.vehicle.diagnosis(), Severity::kNote,
-                {"several sensors", "multi_sensor.launch"});
-}
-
 TEST(MapChecksTest, TakeNoOutputOfAMapForAnInput) {
   SeenVehicle vehicle;
   vehicle.cloud = [](auto*) { return true; };

@@ -137,6 +137,62 @@ TEST(PoseChecksTest, PreferPosesThatLeadToTheSensor) {
   expectFinding(diagnosis, Severity::kNote, {"Of several topics of poses", "--odom TOPIC"});
 }
 
+/// A vehicle with local poses of a type, and MAVROS's global ones.
+struct LocalAndGlobal {
+  SeenVehicle vehicle, global;
+
+  explicit LocalAndGlobal(const std::string& local_topic, const std::string& local_type) {
+    vehicle.pose_topic = local_topic;
+    vehicle.pose_type = local_type;
+    vehicle.pose_rate = 30.0;
+    global.pose_topic = "/mavros/global_position/local";
+  }
+
+  Diagnosis diagnosis(const DoctorWishes& wishes = {}, const RunningMap* map = nullptr) {
+    const Observation of_global = global.observation();
+    vehicle.more = [&of_global, map](Observation* seen) {
+      seen->poses.insert(of_global.poses.begin(), of_global.poses.end());
+      seen->types["/mavros/global_position/local"] = "nav_msgs/Odometry";
+      if (map != nullptr) seen->map = *map;
+    };
+    return vehicle.diagnosis(wishes);
+  }
+};
+
+TEST(PoseChecksTest, PreferLocalPosesToGlobalOnes) {
+  LocalAndGlobal seen("/mavros/local_position/odom", "nav_msgs/Odometry");
+  const Diagnosis diagnosis = seen.diagnosis();
+  EXPECT_EQ(diagnosis.setup.poses, "/mavros/local_position/odom");
+  expectFinding(diagnosis, Severity::kNote,
+                {"from /mavros/local_position/odom, not from /mavros/global_position/local",
+                 "GPS, which jumps"});
+  // Of another type, which goes after odometry else.
+  LocalAndGlobal other("/mavros/local_position/pose", "geometry_msgs/PoseStamped");
+  EXPECT_EQ(other.diagnosis().setup.poses, "/mavros/local_position/pose");
+  DoctorWishes wishes;
+  wishes.odom = "/mavros/global_position/local";
+  EXPECT_EQ(other.diagnosis(wishes).setup.poses, "/mavros/global_position/local");
+}
+
+TEST(PoseChecksTest, TakeGlobalPosesWhereThereAreNoOthers) {
+  SeenVehicle vehicle;
+  vehicle.pose_topic = "/mavros/global_position/local";
+  const Diagnosis diagnosis = vehicle.diagnosis();
+  EXPECT_EQ(diagnosis.setup.poses, "/mavros/global_position/local");
+  expectNothingWrong(diagnosis);
+}
+
+TEST(PoseChecksTest, WonderAtAMapOfGlobalPoses) {
+  LocalAndGlobal seen("/mavros/local_position/odom", "nav_msgs/Odometry");
+  RunningMap map;
+  map.name = "/fiimap";
+  map.inputs = {{"/mavros/global_position/local", "nav_msgs/Odometry"}};
+  const Diagnosis diagnosis = seen.diagnosis({}, &map);
+  EXPECT_EQ(diagnosis.setup.poses, "/mavros/global_position/local");
+  expectFinding(diagnosis, Severity::kWarning,
+                {"although there is /mavros/local_position/odom", "Take the local ones"});
+}
+
 TEST(PoseChecksTest, RefuseWishesThatCannotBe) {
   DoctorWishes wishes;
   wishes.odom = "/nowhere";

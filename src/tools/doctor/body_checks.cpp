@@ -60,6 +60,14 @@ void assumeBody(const std::string& body, const std::string& top, Examination* e)
   e->change("body_frame", top);
 }
 
+/// Whether all sensors hang on a frame: then it may stand for the body.
+bool carriesAll(const std::string& frame, const Examination& e) {
+  const std::vector<std::string> sensors = e.sensorFrames();
+  return std::all_of(sensors.begin(), sensors.end(), [&](const std::string& sensor) {
+    return e.frames.areConnected(frame, sensor);
+  });
+}
+
 void checkUnnamedBody(const std::string& top, Examination* e) {
   const bool can_name = e->setup.node.pose_source != PoseSource::kPose;
   if (top.empty()) {
@@ -82,6 +90,21 @@ void checkUnnamedBody(const std::string& top, Examination* e) {
   e->change("body_frame", top);
 }
 
+/// Poses of TF are those of the sensor; of several sensors, those of a body.
+void checkBodyOnTf(const std::string& top, Examination* e) {
+  const bool is_one_of_several = e->setup.sensors.size() > 1;
+  const std::string sensor = e->sensorFrame();
+  if (e->setup.node.body_frame.empty()) {
+    const std::string body = top.empty() && is_one_of_several ? sensor : top;
+    if (!body.empty()) e->change("body_frame", body);
+  } else if (is_one_of_several && e->setup.node.extrinsics == ExtrinsicsSource::kTf &&
+             !e->frames.areConnected(e->setup.node.body_frame, sensor)) {
+    assumeMount("TF does not say where the sensor's frame '" + sensor + "' is on the body '" +
+                    e->setup.node.body_frame + "' (TF: " + e->frames.text() + ").",
+                e->setup.node.body_frame, e);
+  }
+}
+
 }  // namespace
 
 void checkBodyFrame(Examination* e) {
@@ -90,7 +113,7 @@ void checkBodyFrame(Examination* e) {
   const std::string sensor = e->sensorFrame();
   const std::string top = bodyAbove(sensor, *e);
   if (config.pose_source == PoseSource::kTf) {
-    if (config.body_frame.empty() && !top.empty()) e->change("body_frame", top);
+    checkBodyOnTf(top, e);
     return;
   }
   const std::string child =
@@ -103,7 +126,7 @@ void checkBodyFrame(Examination* e) {
   } else if (body.empty()) {
     checkUnnamedBody(top, e);
   } else if (!e->frames.areConnected(body, sensor) && body != sensor) {
-    if (top.empty()) {
+    if (top.empty() || !carriesAll(top, *e)) {
       assumeMount(
           "TF does not say where the sensor's frame '" + sensor + "' is on the body '" + body +
               "'" + (e->frames.empty() ? ": there is no TF." : " (TF: " + e->frames.text() + ")."),

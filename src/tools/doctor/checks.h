@@ -6,11 +6,23 @@ namespace fiimap {
 
 // The checks in the order in which they are made. Thresholds and reasons are beside them.
 
-/// choose_scans.cpp: depth images or clouds, and the topics that are given names for.
+/// choose_scans.cpp: depth images or clouds of one sensor or several, and the topics that are given
+/// names for.
 void chooseScans(Examination* examination);
 /// choose_poses.cpp
 void choosePoses(Examination* examination);
 
+/// pose_checks.cpp: values that are no poses, in pose messages and in TF.
+void checkPoseValues(Examination* examination);
+/// pose_checks.cpp: map_frame.
+void checkMapFrame(Examination* examination);
+/// time_checks.cpp: stamps of poses that are missing, their rate, gaps.
+void checkPoseRate(Examination* examination);
+
+/// check_sensors.cpp: what follows up to checkClocks, for every sensor.
+void checkSensors(Examination* examination);
+/// choose_scans.cpp: whether a message came.
+void checkScansCome(Examination* examination);
 /// image_checks.cpp: whether there is a camera_info that fits.
 void checkCameraInfo(Examination* examination);
 /// image_checks.cpp: pixels without depth, and the unit of the others.
@@ -20,17 +32,13 @@ void checkCloudPoints(Examination* examination);
 /// cloud_checks.cpp: clouds that were moved into the world before.
 void checkCloudFrame(Examination* examination);
 
-/// pose_checks.cpp: values that are no poses, in pose messages and in TF.
-void checkPoseValues(Examination* examination);
-/// pose_checks.cpp: map_frame.
-void checkMapFrame(Examination* examination);
 /// body_checks.cpp: body_frame and whether TF leads from it to the sensor.
 void checkBodyFrame(Examination* examination);
 /// mount_checks.cpp: where the camera looks, seen from the body.
 void checkMount(Examination* examination);
 
-/// time_checks.cpp: stamps that are missing, rates, gaps.
-void checkRates(Examination* examination);
+/// time_checks.cpp: stamps of scans that are missing, their rate.
+void checkScanRate(Examination* examination);
 /// time_checks.cpp: whether scans and poses are stamped by one clock.
 void checkClocks(Examination* examination);
 /// time_checks.cpp: use_sim_time and /clock.

@@ -18,6 +18,15 @@ bool isTarget(const std::string& topic) {
   return false;
 }
 
+/// From a receiver of GPS, alone or fused: MAVROS's global_position/local, robot_localization's
+/// odometry/gps and odometry/global.
+bool isGlobal(const std::string& topic) {
+  for (const char* word : {"global", "gps", "gnss"}) {
+    if (topic.find(word) != std::string::npos) return true;
+  }
+  return false;
+}
+
 /// Poses that the map does not read.
 std::vector<std::string> foreignPoses(const Observation& seen) {
   std::vector<std::string> topics;
@@ -33,9 +42,13 @@ std::vector<std::string> foreignPoses(const Observation& seen) {
 int likelihoodOfPoses(const std::string& topic, const Examination& e) {
   const auto& poses = e.seen.poses.at(topic);
   const std::string body = plainFrame(poses.front().message->child_frame_id);
-  const bool leads_to_sensor = e.hasScans() && e.frames.areConnected(body, e.sensorFrame());
+  const std::vector<std::string> sensors = e.sensorFrames();
+  const bool leads_to_sensor =
+      std::any_of(sensors.begin(), sensors.end(),
+                  [&](const std::string& sensor) { return e.frames.areConnected(body, sensor); });
   const bool is_fast = static_cast<double>(poses.size()) >= kUsefulRate * e.seen.seconds;
-  return 2 * static_cast<int>(leads_to_sensor) + static_cast<int>(is_fast);
+  return 4 * static_cast<int>(leads_to_sensor) + 2 * static_cast<int>(!isGlobal(topic)) +
+         static_cast<int>(is_fast);
 }
 
 std::vector<std::string> poseTopics(const std::string& type, const Examination& e) {
@@ -82,15 +95,39 @@ bool useWish(Examination* e) {
   return false;
 }
 
+/// Says why local poses are better, where there are both.
+void judgeGlobalPoses(const std::string& chosen, Examination* e) {
+  std::vector<std::string> others;
+  for (const char* type : kPoseTypes) {
+    for (const std::string& topic : poseTopics(type, *e)) {
+      if (isGlobal(topic) != isGlobal(chosen)) others.push_back(topic);
+    }
+  }
+  if (others.empty()) return;
+  const std::string reason =
+      "global poses follow GPS, which jumps by decimetres and more when it corrects itself, and "
+      "walls double then; local ones drift slowly instead";
+  if (!isGlobal(chosen)) {
+    e->note("Poses are taken from " + chosen + ", not from " + listOf(others) + ": " + reason +
+            ".");
+  } else {
+    e->warn("Poses are taken from " + chosen + ", although there is " + listOf(others) + ": " +
+                reason + ".",
+            "Take the local ones.");
+  }
+}
+
 /// \return whether there is a topic of a source that is no TF.
-bool useTopic(PoseSource source, Examination* e) {
+bool useTopic(PoseSource source, bool only_local, Examination* e) {
   const auto index = static_cast<std::size_t>(source);
   const std::vector<std::string> topics = poseTopics(kPoseTypes[index], *e);
   if (topics.empty()) return false;
   const std::string listened = listenedTo(kPoseTypes[index], e->seen, topics);
   const std::string chosen = e->seen.poses.count(listened) != 0 ? listened : topics.front();
+  if (only_local && isGlobal(chosen) && chosen != listened) return false;
   noteOthers("topics of poses", chosen, topics, kOptions[index], e);
   usePoses(source, chosen, e);
+  judgeGlobalPoses(chosen, e);
   return true;
 }
 
@@ -114,20 +151,21 @@ std::string worldAbove(const std::string& sensor_frame, const FrameGraph& frames
   return named == chain.end() ? "" : *named;
 }
 
-/// \return whether TF has poses of the sensor.
+/// \return whether TF has poses of a sensor.
 bool useTf(Examination* e) {
-  if (!e->hasScans()) return false;
-  const std::string sensor = e->sensorFrame();
-  const std::string world =
-      e->isGiven("map_frame") ? e->setup.node.map_frame : worldAbove(sensor, e->frames);
-  if (world.empty() || !e->frames.areConnected(sensor, world)) return false;
-  e->setup.node.pose_source = PoseSource::kTf;
-  e->setup.node.map_frame = world;
-  e->setup.has_poses = true;
-  e->note("Poses come from TF: of '" + sensor + "' in '" + world + "'.",
-          "Another frame of the map: --set map_frame=FRAME; poses of a topic: --odom TOPIC, --pose "
-          "TOPIC or --transform TOPIC.");
-  return true;
+  for (const std::string& sensor : e->sensorFrames()) {
+    const std::string world =
+        e->isGiven("map_frame") ? e->setup.node.map_frame : worldAbove(sensor, e->frames);
+    if (world.empty() || !e->frames.areConnected(sensor, world)) continue;
+    e->setup.node.pose_source = PoseSource::kTf;
+    e->setup.node.map_frame = world;
+    e->setup.has_poses = true;
+    e->note("Poses come from TF: of '" + sensor + "' in '" + world + "'.",
+            "Another frame of the map: --set map_frame=FRAME; poses of a topic: --odom TOPIC, "
+            "--pose TOPIC or --transform TOPIC.");
+    return true;
+  }
+  return false;
 }
 
 void reportNoPoses(Examination* e) {
@@ -150,6 +188,10 @@ void reportNoPoses(Examination* e) {
            "capture, or for PX4 mavros (/mavros/local_position/odom).");
 }
 
+bool prefersTf(const Examination& e) {
+  return e.isGiven("pose_source") && e.setup.node.pose_source == PoseSource::kTf;
+}
+
 }  // namespace
 
 void choosePoses(Examination* e) {
@@ -160,8 +202,13 @@ void choosePoses(Examination* e) {
     std::stable_partition(sources.begin(), sources.end(),
                           [e](PoseSource source) { return source == e->setup.node.pose_source; });
   }
-  for (const PoseSource source : sources) {
-    if (source == PoseSource::kTf ? useTf(e) : useTopic(source, e)) return;
+  // Global poses only where there are no others.
+  for (const bool only_local : {true, false}) {
+    for (const PoseSource source : sources) {
+      const bool is_tf = source == PoseSource::kTf;
+      if (is_tf && only_local && !prefersTf(*e)) continue;
+      if (is_tf ? useTf(e) : useTopic(source, only_local, e)) return;
+    }
   }
   for (const char* type : kPoseTypes) {
     for (const std::string& topic : topicsOfType(type, e->seen)) {

@@ -2,6 +2,8 @@
 #include <stdexcept>
 
 #include "doctor/checks.h"
+#include "doctor/scan_candidates.h"
+#include "doctor/several_sensors.h"
 #include "doctor/topic_choice.h"
 #include "fiimap/ros/frame_id.h"
 #include "fiimap/ros/message_conversions.h"
@@ -14,51 +16,8 @@ const std::string kCompressedType = "sensor_msgs/CompressedImage";
 const std::string kInfoType = "sensor_msgs/CameraInfo";
 const std::string kCloudType = "sensor_msgs/PointCloud2";
 
-/// image_transport's rule: beside the image.
-std::string infoBeside(const std::string& image_topic) {
-  return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
-}
-
 bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
-}
-
-/// Below it, an image of 16 bits may as well be a LiDAR's or a thermal camera's.
-constexpr int kLikelyDepth = 2;
-
-int likelihood(const std::string& depth_image, const Examination& e) {
-  return 4 * static_cast<int>(e.seen.infos.count(infoBeside(depth_image))) +
-         2 * static_cast<int>(contains(depth_image, "depth")) +
-         static_cast<int>(contains(depth_image, "rect"));
-}
-
-/// A cloud in a sensor's frame is more likely than one that was moved into the world.
-int likelihoodOfCloud(const std::string& cloud, const Examination& e) {
-  const std::string frame = plainFrame(e.seen.clouds.at(cloud).front().message->header.frame_id);
-  const bool is_in_world =
-      std::any_of(e.seen.poses.begin(), e.seen.poses.end(), [&frame](const auto& topic) {
-        return plainFrame(topic.second.front().message->header.frame_id) == frame;
-      });
-  return 2 * static_cast<int>(e.seen.points.at(cloud).unreadable.empty()) +
-         static_cast<int>(!is_in_world);
-}
-
-std::vector<std::string> depthImages(const Examination& e) {
-  std::vector<std::string> topics;
-  for (const auto& [topic, figures] : e.seen.depth) topics.push_back(topic);
-  std::stable_sort(topics.begin(), topics.end(), [&e](const auto& a, const auto& b) {
-    return likelihood(a, e) > likelihood(b, e);
-  });
-  return topics;
-}
-
-std::vector<std::string> cloudTopics(const Examination& e) {
-  std::vector<std::string> topics;
-  for (const auto& [topic, figures] : e.seen.points) topics.push_back(topic);
-  std::stable_sort(topics.begin(), topics.end(), [&e](const auto& a, const auto& b) {
-    return likelihoodOfCloud(a, e) > likelihoodOfCloud(b, e);
-  });
-  return topics;
 }
 
 /// The images that came and are none, and those of which nothing came.
@@ -104,6 +63,22 @@ void reportNoScans(Examination* e) {
            "no depth image.");
 }
 
+std::string firstWish(const std::vector<std::string>& wishes) {
+  return wishes.empty() ? "" : wishes.front();
+}
+
+bool isOtherImage(const std::string& image, const Examination& e) {
+  return e.seen.images.count(image) != 0 && e.seen.depth.count(image) == 0;
+}
+
+void reportOtherImage(const std::string& image, const std::vector<std::string>& images,
+                      Examination* e) {
+  e->error("The image " + image + " has the encoding '" +
+               e->seen.images.at(image).front().message->encoding + "': it is no depth image.",
+           "Use one of encoding 16UC1, mono16 or 32FC1" +
+               (images.empty() ? "." : ": " + listOf(images) + "."));
+}
+
 /// The topic that the user, or the node that runs, wants.
 std::string wanted(const std::string& wish, const std::string& type, const char* option,
                    const std::vector<std::string>& candidates, const Examination& e) {
@@ -113,82 +88,102 @@ std::string wanted(const std::string& wish, const std::string& type, const char*
 }
 
 void chooseCameraInfo(Examination* e) {
-  const std::string beside = infoBeside(e->setup.depth_image);
-  const std::string wish = wanted(e->wishes.camera_info, kInfoType, "--camera-info", {beside}, *e);
-  if (e->seen.infos.count(wish) != 0) {
-    e->setup.camera_info = wish;
+  const std::string& image = e->setup.depth_image;
+  const std::string beside = infoBeside(image);
+  const std::string wish =
+      wanted(firstWish(e->wishes.camera_infos), kInfoType, "--camera-info", {beside}, *e);
+  e->setup.camera_info = e->seen.infos.count(wish) != 0 ? wish : cameraInfoOf(image, *e);
+  const std::string& chosen = e->setup.camera_info;
+  if (chosen.empty() || chosen == wish || chosen == beside) return;
+  e->note("The camera_info of " + image + " is not beside it, but on " + chosen +
+          " there is one of the same frame.");
+}
+
+/// Depth images or clouds: the first sensor, or the only one.
+void chooseFirst(Examination* e) {
+  const std::vector<std::string> images = depthImages(*e), clouds = cloudTopics(*e);
+  const std::string image_wish = firstWish(e->wishes.depth_images);
+  const std::string cloud_wish = firstWish(e->wishes.points);
+  const bool map_takes_points = e->seen.map && e->setup.node.sensor == SensorKind::kPoints;
+  const bool points_named = !cloud_wish.empty();
+  std::string image = points_named || (map_takes_points && image_wish.empty())
+                          ? ""
+                          : wanted(image_wish, kImageType, "--depth-image", images, *e);
+  std::string cloud = wanted(cloud_wish, kCloudType, "--points", clouds, *e);
+  if (!image.empty() && isOtherImage(image, *e)) {
+    reportOtherImage(image, images, e);
     return;
   }
-  if (e->seen.infos.count(beside) != 0) {
-    e->setup.camera_info = beside;
-    return;
+  // What a map listens to in vain is said with the map.
+  if (e->seen.depth.count(image) == 0 && image_wish.empty()) image.clear();
+  if (e->seen.points.count(cloud) == 0 && cloud_wish.empty()) cloud.clear();
+  const bool images_are_likely =
+      !images.empty() && (clouds.empty() || isLikelyDepth(images.front(), *e));
+  if (image.empty() && !points_named && !map_takes_points && images_are_likely) {
+    image = images.front();
   }
-  // Elsewhere: that of the same frame.
-  for (const auto& [topic, infos] : e->seen.infos) {
-    if (plainFrame(infos.front().message->header.frame_id) != e->sensorFrame()) continue;
-    e->setup.camera_info = topic;
-    e->note("The camera_info of " + e->setup.depth_image + " is not beside it, but on " + topic +
-            " there is one of the same frame.");
-    return;
+  if (!image.empty()) {
+    e->setup.depth_image = image;
+  } else if (!cloud.empty() || !clouds.empty()) {
+    e->setup.points = cloud.empty() ? clouds.front() : cloud;
   }
 }
 
-void useDepth(const std::string& topic, const std::vector<std::string>& all, Examination* e) {
-  e->setup.depth_image = topic;
-  e->setup.node.sensor = SensorKind::kDepth;
-  noteOthers("depth images", topic, all, "--depth-image", e);
-  if (e->hasScans()) chooseCameraInfo(e);
+/// Says which topics beside the only sensor there are.
+void noteOthersOfOne(Examination* e) {
+  const MapSetup& setup = e->setup;
+  const std::vector<std::string> clouds = cloudTopics(*e);
+  if (setup.depth_image.empty()) {
+    noteOthers("clouds", setup.points, clouds, "--points", e);
+    return;
+  }
+  noteOthers("depth images", setup.depth_image, depthImages(*e), "--depth-image", e);
+  if (clouds.empty()) return;
+  e->note("There are clouds too: " + listOf(clouds) + ".",
+          "For a map of clouds add --points TOPIC.");
 }
 
-void usePoints(const std::string& topic, const std::vector<std::string>& all, Examination* e) {
-  e->setup.points = topic;
-  e->setup.node.sensor = SensorKind::kPoints;
-  noteOthers("clouds", topic, all, "--points", e);
+void useOne(Examination* e) {
+  noteOthersOfOne(e);
+  const bool has_depth = !e->setup.depth_image.empty();
+  e->setup.node.sensor = has_depth ? SensorKind::kDepth : SensorKind::kPoints;
+  if (has_depth && e->hasScans()) chooseCameraInfo(e);
+}
+
+/// Whether the user, or the map that runs, has one sensor.
+bool isOneWanted(const Examination& e) {
+  return e.seen.map || e.wishes.depth_images.size() + e.wishes.points.size() == 1;
 }
 
 }  // namespace
 
 void chooseScans(Examination* e) {
-  const std::vector<std::string> images = depthImages(*e), clouds = cloudTopics(*e);
-  const bool map_takes_points = e->seen.map && e->setup.node.sensor == SensorKind::kPoints;
-  const bool points_named = !e->wishes.points.empty();
-  std::string image = points_named || (map_takes_points && e->wishes.depth_image.empty())
-                          ? ""
-                          : wanted(e->wishes.depth_image, kImageType, "--depth-image", images, *e);
-  std::string cloud = wanted(e->wishes.points, kCloudType, "--points", clouds, *e);
-  if (!image.empty() && e->seen.images.count(image) != 0 && e->seen.depth.count(image) == 0) {
-    e->error("The image " + image + " has the encoding '" +
-                 e->seen.images.at(image).front().message->encoding + "': it is no depth image.",
-             "Use one of encoding 16UC1, mono16 or 32FC1" +
-                 (images.empty() ? "." : ": " + listOf(images) + "."));
+  if (chooseNamedSensors(e)) return;
+  const std::size_t findings = e->findings.size();
+  chooseFirst(e);
+  if (e->setup.scans().empty()) {
+    if (e->findings.size() == findings) reportNoScans(e);
     return;
   }
-  // What a map listens to in vain is said with the map.
-  if (e->seen.depth.count(image) == 0 && e->wishes.depth_image.empty()) image.clear();
-  if (e->seen.points.count(cloud) == 0 && e->wishes.points.empty()) cloud.clear();
-  const bool images_are_likely =
-      !images.empty() && (clouds.empty() || likelihood(images.front(), *e) >= kLikelyDepth);
-  if (image.empty() && !points_named && !map_takes_points && images_are_likely) {
-    image = images.front();
-  }
-  if (!image.empty()) {
-    useDepth(image, images, e);
-    if (!clouds.empty()) {
-      e->note("There are clouds too: " + listOf(clouds) + ".",
-              "For a map of clouds add --points TOPIC.");
-    }
-  } else if (!cloud.empty() || !clouds.empty()) {
-    usePoints(cloud.empty() ? clouds.front() : cloud, clouds, e);
-  } else {
-    reportNoScans(e);
+  if (isOneWanted(*e) || !chooseAllSensors(e)) useOne(e);
+}
+
+void checkScansCome(Examination* e) {
+  const bool is_named = !e->setup.name.empty();
+  if ((e->setup.scans().empty() && !is_named) || e->hasScans()) return;
+  if (e->setup.scans().empty()) {
+    const bool has_depth = e->setup.node.sensor == SensorKind::kDepth;
+    e->error(std::string("There are no ") + (has_depth ? "depth images" : "clouds") +
+                 " for the sensor '" + e->setup.name + "'.",
+             std::string("Start it, or name its topic: ") +
+                 (has_depth ? "--depth-image" : "--points") + " TOPIC for each sensor.");
     return;
   }
-  if (!e->hasScans()) {
-    e->error("No message came on " + e->setup.scans() + " in " + withUnit(e->seen.seconds, "s", 1) +
-                 ", although it is advertised.",
-             "Look at its publisher; a driver may wait for its device, or publish nothing until "
-             "its stream is switched on.");
-  }
+  e->error("No message came on " + e->setup.scans() + " in " + withUnit(e->seen.seconds, "s", 1) +
+               (e->seen.types.count(e->setup.scans()) != 0 ? ", although it is advertised."
+                                                           : ": nobody publishes it."),
+           "Look at its publisher; a driver may wait for its device, or publish nothing until "
+           "its stream is switched on.");
 }
 
 }  // namespace fiimap

@@ -4,6 +4,8 @@
 
 #include "doctor/checks.h"
 #include "doctor/launch_line.h"
+#include "doctor/launch_parameters.h"
+#include "doctor/several_sensors.h"
 #include "doctor/timing.h"
 
 namespace fiimap {
@@ -12,13 +14,16 @@ namespace {
 constexpr double kManyLost = 0.1;  // of the scans
 
 /// What the checks did not foresee, the node's own synchronisation shows.
-void judge(const Trial& trial, Examination* e) {
-  for (const std::string& warning : trial.warnings)
+/// \param name of the sensor, before sentences about it; empty where there is only one.
+void judge(const Trial& trial, const std::string& name, Examination* e) {
+  const std::string about = name.empty() ? "" : name + ": ";
+  for (const std::string& warning : trial.warnings) {
     e->warn("The map would say: " + warning + ".", "");
+  }
   const std::size_t decided = trial.decided();
   if (decided == 0) {
     if (trial.scans > 0 && e->setup.has_poses) {
-      e->error("Of " + std::to_string(trial.scans) +
+      e->error(about + "Of " + std::to_string(trial.scans) +
                    " scans none found a pose: each still waits "
                    "for one of its time.",
                "Look for longer with --seconds.");
@@ -30,31 +35,32 @@ void judge(const Trial& trial, Examination* e) {
                            " scans would be dropped, the last for " + trial.last_drop.detail;
   const std::string remedy = remedyFor(trial.last_drop.reason) + ".";
   if (trial.usable == 0) {
-    e->error("No scan would go into the map: " + what + ".", remedy);
+    e->error(about + "No scan would go into the map: " + what + ".", remedy);
   } else if (static_cast<double>(lost) > kManyLost * static_cast<double>(decided)) {
-    e->warn(what + ".", remedy);
+    e->warn(about + what + ".", remedy);
   }
+}
+
+void judgeAll(const std::vector<Trial>& trials, Examination* e) {
+  const std::vector<ScanTopics> sensors = e->setup.allSensors();
+  for (std::size_t i = 0; i < sensors.size(); ++i) judge(trials[i], sensors[i].name, e);
 }
 
 /// Of what the map would get.
 std::vector<TopicHealth> topicTiming(const Examination& e) {
   std::vector<TopicHealth> topics;
-  const TopicHealth scans = scanTiming(e), poses = poseTiming(e);
-  if (scans.messages > 0) topics.push_back(scans);
-  const auto infos = e.seen.infos.find(e.setup.camera_info);
-  if (infos != e.seen.infos.end()) {
+  for (const ScanTopics& sensor : e.setup.allSensors()) {
+    const TopicHealth scans = scanTiming(sensor, e.seen);
+    if (scans.messages > 0) topics.push_back(scans);
+    const auto infos = e.seen.infos.find(sensor.camera_info);
+    if (infos == e.seen.infos.end()) continue;
     const bool has_stamp = true;
     topics.push_back(
         healthOf(infos->first, e.seen.types.at(infos->first), has_stamp, timesOf(infos->second)));
   }
+  const TopicHealth poses = poseTiming(e);
   if (poses.messages > 0) topics.push_back(poses);
   return topics;
-}
-
-bool isBlocked(const std::vector<Finding>& findings) {
-  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::kError && finding.repair == Repair::kNone;
-  });
 }
 
 const char* nameOf(Severity severity) {
@@ -93,6 +99,21 @@ std::string toText(const Finding& finding) {
   return text;
 }
 
+/// "110 of the 110 scans that came would have gone into the map"
+std::string trialText(const Diagnosis& diagnosis) {
+  const std::vector<ScanTopics>& sensors = diagnosis.setup.sensors;
+  const Trial& trial = diagnosis.trial;
+  std::string text = std::to_string(trial.usable) + " of the " + std::to_string(trial.scans) +
+                     " scans that came would have gone into the map";
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    text += (i == 0 ? ": " : ", ") + sensors[i].name + ' ' +
+            std::to_string(diagnosis.trials[i].usable) + " of " +
+            std::to_string(diagnosis.trials[i].scans);
+  }
+  const std::size_t waiting = trial.scans - std::min(trial.scans, trial.decided());
+  return waiting == 0 ? text : text + "; " + std::to_string(waiting) + " wait for later poses";
+}
+
 std::string adviceText(const Diagnosis& diagnosis, const Observation& seen) {
   if (seen.map && diagnosis.count(Severity::kError) == 0) {
     return "The map that runs has what it needs.\n";
@@ -100,17 +121,17 @@ std::string adviceText(const Diagnosis& diagnosis, const Observation& seen) {
   if (diagnosis.launch_words.empty()) {
     return "No launch line would lead to a map yet: set right what is WRONG, and ask again.\n";
   }
-  const Trial& trial = diagnosis.trial;
-  std::string text = "Launch line (" + std::to_string(trial.usable) + " of the " +
-                     std::to_string(trial.scans) + " scans that came would have gone into the map";
-  if (trial.scans > trial.decided()) {
-    text += ", " + std::to_string(trial.scans - trial.decided()) + " wait for later poses";
-  }
-  text += "):\n\n";
+  std::string text = "Launch line (" + trialText(diagnosis) + "):\n\n";
   if (seen.live() && seen.clock_messages > 0 && !seen.use_sim_time) {
     text += "rosparam set /use_sim_time true\n";
   }
-  return text + shellCommand(diagnosis.launch_words) + '\n';
+  text += shellCommand(diagnosis.launch_words) + '\n';
+  if (!seen.map) return text;
+  text += "\nEnd the map that runs first: rosnode kill " + seen.map->name + ".\n";
+  if (diagnosis.kept.empty()) return text;
+  return text + wrapped("The line keeps what " + seen.map->name +
+                            " has set: " + listOf(diagnosis.kept) + ".",
+                        "", "");
 }
 
 }  // namespace
@@ -125,23 +146,21 @@ Diagnosis diagnose(const Observation& observation, const DoctorWishes& wishes) {
   Examination e(observation, wishes);
   chooseScans(&e);
   choosePoses(&e);
-  checkCameraInfo(&e);
-  checkDepthReadings(&e);
-  checkCloudPoints(&e);
   checkPoseValues(&e);
   checkMapFrame(&e);
-  checkCloudFrame(&e);
-  checkBodyFrame(&e);
-  checkMount(&e);
-  checkRates(&e);
-  checkClocks(&e);
+  checkPoseRate(&e);
+  checkSensors(&e);
   checkSimulatedTime(&e);
   checkRunningMap(&e);
 
   Diagnosis diagnosis;
-  diagnosis.trial = tryOut(observation, e.setup);
-  if (!isBlocked(e.findings)) judge(diagnosis.trial, &e);
-  if (!isBlocked(e.findings)) diagnosis.launch_words = launchWords(observation, e.setup);
+  diagnosis.trials = tryOut(observation, e.setup);
+  diagnosis.trial = sumOf(diagnosis.trials);
+  if (!isBlocked(e.findings)) judgeAll(diagnosis.trials, &e);
+  if (!isBlocked(e.findings)) {
+    diagnosis.launch_words = launchWords(observation, e.setup);
+    diagnosis.kept = keptParameters(observation, e.setup);
+  }
   diagnosis.topics = topicTiming(e);
   diagnosis.setup = e.setup;
   diagnosis.findings = e.findings;

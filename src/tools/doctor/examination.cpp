@@ -6,6 +6,13 @@
 #include "fiimap/ros/frame_id.h"
 
 namespace fiimap {
+namespace {
+
+bool hasMessages(const std::string& topic, const Observation& seen) {
+  return seen.images.count(topic) != 0 || seen.clouds.count(topic) != 0;
+}
+
+}  // namespace
 
 Examination::Examination(const Observation& observation, const DoctorWishes& chosen)
     : seen(observation), wishes(chosen), frames(observation) {
@@ -19,11 +26,10 @@ Examination::Examination(const Observation& observation, const DoctorWishes& cho
     throw std::invalid_argument("unknown parameter " + name + ": fiimap_eval parameters lists all");
   }
   setup.changes = wishes.parameters;
-  if (setup.node.sensors.empty()) return;
-  note("The map has several sensors; one of them is looked at.",
-       "Choose it with --depth-image TOPIC or --points TOPIC; launch lines are for one sensor, "
-       "launch/multi_sensor.launch is for several.");
-  setup.node.sensors.clear();
+}
+
+std::vector<ScanTopics> MapSetup::allSensors() const {
+  return sensors.empty() ? std::vector<ScanTopics>{*this} : sensors;
 }
 
 void Examination::note(const std::string& what, const std::string& remedy) {
@@ -46,18 +52,24 @@ void Examination::change(const std::string& parameter, const std::string& value)
   setup.changes[parameter] = value;
 }
 
-bool Examination::hasScans() const {
-  const auto images = seen.images.find(setup.depth_image);
-  const auto clouds = seen.clouds.find(setup.points);
-  return (images != seen.images.end() && !images->second.empty()) ||
-         (clouds != seen.clouds.end() && !clouds->second.empty());
+bool Examination::hasScans() const { return hasMessages(setup.scans(), seen); }
+
+std::string Examination::sensorFrame() const { return frameOfScans(setup.scans(), seen); }
+
+std::vector<std::string> Examination::sensorFrames() const {
+  std::vector<std::string> names;
+  for (const ScanTopics& sensor : setup.allSensors()) {
+    if (hasMessages(sensor.scans(), seen)) names.push_back(frameOfScans(sensor.scans(), seen));
+  }
+  return names;
 }
 
-std::string Examination::sensorFrame() const {
-  const auto images = seen.images.find(setup.depth_image);
+std::string frameOfScans(const std::string& topic, const Observation& seen) {
+  if (!hasMessages(topic, seen)) return "";
+  const auto images = seen.images.find(topic);
   return plainFrame(images != seen.images.end()
                         ? images->second.front().message->header.frame_id
-                        : seen.clouds.at(setup.points).front().message->header.frame_id);
+                        : seen.clouds.at(topic).front().message->header.frame_id);
 }
 
 std::string withUnit(double value, const char* unit, int digits) {

@@ -30,23 +30,34 @@ struct Finding {
 
 /// What the user chose where there is a choice. Empty: found by type.
 struct DoctorWishes {
-  std::string depth_image, camera_info, points;  // topics
-  std::string odom, pose, transform;             // topics; at most one
-  std::string map;                               ///< name of the mapping node
-  ParameterMap parameters;                       ///< of the map
+  std::vector<std::string> depth_images, points;  ///< topics; more than one: several sensors
+  std::vector<std::string> camera_infos;          ///< topics, in the order of the depth images
+  std::string odom, pose, transform;              // topics; at most one
+  std::string map;                                ///< name of the mapping node
+  ParameterMap parameters;                        ///< of the map
 };
 
-/// The inputs that were found and the parameters that fit them.
-struct MapSetup {
+/// The topics of a sensor: a depth image with its camera_info, or points.
+struct ScanTopics {
+  std::string name;                      ///< of one of several sensors; empty: it needs none
   std::string depth_image, camera_info;  ///< topics; empty: none
   std::string points;                    ///< topic; empty: none
-  std::string poses;                     ///< topic; empty: none, or TF
-  bool has_poses = false;                ///< a topic, or TF
+
+  const std::string& scans() const { return depth_image.empty() ? points : depth_image; }
+};
+
+/// The inputs that were found and the parameters that fit them. Of several sensors, the topics are
+/// those of the one that is looked at, or the first.
+struct MapSetup : ScanTopics {
+  std::vector<ScanTopics> sensors;  ///< in the order of node.sensors; empty: one without a name
+  std::string poses;                ///< topic; empty: none, or TF
+  bool has_poses = false;           ///< a topic, or TF
   MapperConfig mapper;
   NodeConfig node;
   ParameterMap changes;  ///< parameters beside topics, sensor, pose_source and map_frame to be set
 
-  const std::string& scans() const { return depth_image.empty() ? points : depth_image; }
+  /// All sensors, at least one.
+  std::vector<ScanTopics> allSensors() const;
 };
 
 /// An observation on its way through the checks. Each takes the setup as those before it left it,
@@ -70,11 +81,16 @@ struct Examination {
   /// Sets a parameter of the map that the launch line must then set.
   void change(const std::string& parameter, const std::string& value);
 
-  /// Frame and stamps of the scans; there must be some.
+  /// Frame of the scans; there must be some.
   std::string sensorFrame() const;
   /// Scans were chosen, and some came.
   bool hasScans() const;
+  /// Frames of the scans of all sensors of which some came.
+  std::vector<std::string> sensorFrames() const;
 };
+
+/// Frame of the scans that came on a topic; empty where none came.
+std::string frameOfScans(const std::string& topic, const Observation& observation);
 
 /// "2.0 Hz", "0.25 s", "37 %": numbers as sentences want them.
 std::string withUnit(double value, const char* unit, int digits = 2);

@@ -2,72 +2,61 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <sstream>
 
-#include "quantiles.h"
+#include "doctor/launch_parameters.h"
+#include "doctor/scan_candidates.h"
 
 namespace fiimap {
 namespace {
 
-constexpr double kCameraRange = 10.0;  // m; what sees farther is a LiDAR
 constexpr std::size_t kLineLength = 90;
 constexpr const char* kPoseNames[3] = {"odom", "pose", "transform"};
 constexpr const char* kSourceNames[4] = {"odometry", "pose", "transform", "tf"};
 
-bool isLidar(const Observation& seen, const MapSetup& setup) {
-  const auto points = seen.points.find(setup.points);
-  return points != seen.points.end() && !points->second.is_organised &&
-         quantilesOf(points->second.ranges).p95 > kCameraRange;
-}
-
-bool isNumber(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
-}
-
-bool isWord(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '/' || c == '.';
+/// All sensors are LiDARs, and there are no parameters of a map that runs.
+bool isForLidarLaunch(const Observation& seen, const MapSetup& setup) {
+  const std::vector<ScanTopics> sensors = setup.allSensors();
+  return !seen.map && std::all_of(sensors.begin(), sensors.end(), [&](const ScanTopics& sensor) {
+    return isLidar(sensor.points, seen);
   });
 }
 
-bool isList(const std::string& parameter) {
-  return parameter == "extrinsic_translation" || parameter == "extrinsic_rotation" ||
-         parameter == "sensors";
-}
-
-/// A parameter's text as a value in YAML; in lists, words are separated by spaces.
-std::string yamlValue(const std::string& parameter, const std::string& text) {
-  if (!isList(parameter)) return isNumber(text) || isWord(text) ? text : '"' + text + '"';
-  std::istringstream words(text);
-  std::string list;
-  for (std::string word; words >> word;) list += (list.empty() ? "" : ", ") + word;
-  return '[' + list + ']';
-}
-
-/// "{a: 1, b: [1, 2]}"; empty where there is nothing to set.
-std::string furtherParameters(const ParameterMap& changes) {
-  std::string yaml;
-  for (const auto& [name, value] : changes) {
-    const bool has_argument =
-        name == "sensor" || name == "pose_source" || name == "map_frame" || name == "body_frame";
-    if (!has_argument) yaml += (yaml.empty() ? "" : ", ") + name + ": " + yamlValue(name, value);
-  }
-  return yaml.empty() ? "" : '{' + yaml + '}';
+bool needsTf(const NodeConfig& node) {
+  const std::vector<SensorConfig> sensors = node.allSensors();
+  return node.pose_source == PoseSource::kTf ||
+         std::any_of(sensors.begin(), sensors.end(), [](const SensorConfig& sensor) {
+           return sensor.extrinsics == ExtrinsicsSource::kTf;
+         });
 }
 
 /// Those that the map needs; without a recorded /clock, which the player publishes itself.
 std::string topicsToPlay(const Observation& seen, const MapSetup& setup) {
-  const bool needs_tf =
-      setup.node.pose_source == PoseSource::kTf || setup.node.extrinsics == ExtrinsicsSource::kTf;
-  std::string topics = setup.scans();
-  for (const std::string& topic : {setup.camera_info, setup.poses}) {
-    if (!topic.empty()) topics += ' ' + topic;
+  std::string topics;
+  const auto add = [&topics](const std::string& topic) {
+    if (!topic.empty()) topics += (topics.empty() ? "" : " ") + topic;
+  };
+  for (const ScanTopics& sensor : setup.allSensors()) {
+    add(sensor.scans());
+    add(sensor.camera_info);
   }
+  add(setup.poses);
   for (const char* topic : {"/tf", "/tf_static"}) {
-    if (needs_tf && seen.types.count(topic) != 0) topics += std::string(" ") + topic;
+    if (needsTf(setup.node) && seen.types.count(topic) != 0) add(topic);
+  }
+  return topics;
+}
+
+/// The topics of several sensors, as mapping.launch takes them: "front/points=/points left/..."
+std::string topicsOfSensors(const MapSetup& setup) {
+  std::string topics;
+  for (const ScanTopics& sensor : setup.sensors) {
+    const auto add = [&](const char* name, const std::string& topic) {
+      if (topic.empty()) return;
+      topics += (topics.empty() ? "" : " ") + sensor.name + '/' + name + '=' + topic;
+    };
+    add("depth/image", sensor.depth_image);
+    add("depth/camera_info", sensor.camera_info);
+    add("points", sensor.points);
   }
   return topics;
 }
@@ -89,7 +78,7 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 std::vector<std::string> launchWords(const Observation& seen, const MapSetup& setup) {
-  const bool lidar = isLidar(seen, setup);
+  const bool lidar = isForLidarLaunch(seen, setup);
   std::vector<std::string> words = {"roslaunch", "fiimap",
                                     lidar         ? "lidar.launch"
                                     : seen.live() ? "mapping.launch"
@@ -101,17 +90,28 @@ std::vector<std::string> launchWords(const Observation& seen, const MapSetup& se
   if (!seen.live() && seen.types.count("/clock") != 0) {
     add("bag_topics", topicsToPlay(seen, setup));
   }
-  if (seen.map && seen.map->name != "/fiimap") add("name", seen.map->name.substr(1));
+  if (seen.map) {
+    // A node's name has no '/': its namespace is that of the whole launch file.
+    const std::size_t slash = seen.map->name.rfind('/');
+    add("__ns", seen.map->name.substr(0, slash));
+    const std::string name = seen.map->name.substr(slash + 1);
+    if (name != "fiimap") add("name", name);
+    add("manager", seen.map->manager);
+  }
   if (!lidar) add("sensor", setup.node.sensor == SensorKind::kDepth ? "depth" : "points");
-  add("depth_image", setup.depth_image);
-  add("camera_info", setup.camera_info);
-  add("points", setup.points);
+  if (setup.sensors.empty()) {
+    add("depth_image", setup.depth_image);
+    add("camera_info", setup.camera_info);
+    add("points", setup.points);
+  } else {
+    add("topics", topicsOfSensors(setup));
+  }
   const auto source = static_cast<std::size_t>(setup.node.pose_source);
   add("pose_source", kSourceNames[source]);
   if (setup.node.pose_source != PoseSource::kTf) add(kPoseNames[source], setup.poses);
   add("map_frame", setup.node.map_frame);
-  if (setup.changes.count("body_frame") != 0) add("body_frame", setup.node.body_frame);
-  add("parameters", furtherParameters(setup.changes));
+  if (seen.map || setup.changes.count("body_frame") != 0) add("body_frame", setup.node.body_frame);
+  add("parameters", toYaml(furtherParameters(seen, setup)));
   return words;
 }
 

@@ -128,7 +128,8 @@ class GraphListener {
       observation_->map = RunningMap();
       observation_->map->name = name;
       observation_->map->parameters = parameterMapFromRos(ros::NodeHandle(name));
-      observation_->map->inputs = inputsOf(name);
+      describeInputs(&*observation_->map);
+      addSensors(&*observation_->map);
       addTroubles(&*observation_->map);
       return;
     }
@@ -145,14 +146,27 @@ class GraphListener {
     }
   }
 
-  /// Topics that the process of a map listens to, with their types.
-  static std::map<std::string, std::string> inputsOf(const std::string& map) {
+  /// What each sensor listens to, from the status of the map's inputs: "front: scan topic".
+  void addSensors(RunningMap* map) const {
+    const auto status = statuses_.find(map->name.substr(1) + ": inputs");
+    if (status == statuses_.end()) return;
+    for (const diagnostic_msgs::KeyValue& value : status->second.values) {
+      const std::size_t colon = value.key.find(": ");
+      if (colon == std::string::npos) continue;
+      const std::string sensor = value.key.substr(0, colon), what = value.key.substr(colon + 2);
+      if (what == "scan topic") map->sensors[sensor].scans = value.value;
+      if (what == "camera_info topic") map->sensors[sensor].camera_info = value.value;
+    }
+  }
+
+  /// Topics that the process of a map listens to, with their types, and whether it is a manager.
+  static void describeInputs(RunningMap* map) {
     XmlRpc::XmlRpcValue arguments, response, state, types;
     arguments[0] = ros::this_node::getName();
     const bool wait = false;
     if (!ros::master::execute("getSystemState", arguments, response, state, wait) ||
         !ros::master::execute("getTopicTypes", arguments, response, types, wait)) {
-      return {};
+      return;
     }
     std::map<std::string, std::string> type_of;
     for (int i = 0; i < types.size(); ++i) {
@@ -160,13 +174,14 @@ class GraphListener {
     }
     std::set<std::string> processes;
     forEachUser(state[0], [&](const std::string& topic, const std::string& node) {
-      if (topic == map + "/map_handle") processes.insert(node);
+      if (topic == map->name + "/map_handle") processes.insert(node);
     });
-    std::map<std::string, std::string> inputs;
     forEachUser(state[1], [&](const std::string& topic, const std::string& node) {
-      if (processes.count(node) != 0) inputs[topic] = type_of[topic];
+      if (processes.count(node) != 0) map->inputs[topic] = type_of[topic];
     });
-    return inputs;
+    forEachUser(state[2], [&](const std::string& service, const std::string& node) {
+      if (processes.count(node) != 0 && service == node + "/load_nodelet") map->manager = node;
+    });
   }
 
   /// \param users of the master's state: [[topic, [node, ...]], ...].

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "doctor/checks.h"
+#include "doctor/several_sensors.h"
 #include "doctor/topic_choice.h"
 
 namespace fiimap {
@@ -18,6 +19,35 @@ void checkInput(const std::string& what, const std::string& type, const std::str
            std::string("Start it with ") + argument + ":=" + found + ".", Repair::kInLaunchLine);
 }
 
+/// The same of a topic of one of its sensors.
+void checkSensorInput(const ScanTopics& sensor, const std::string& listened,
+                      const std::string& found, const std::string& topic, Examination* e) {
+  if (found.empty() || listened == found) return;
+  const bool exists = e->seen.types.count(listened) != 0;
+  e->error(
+      "The map " + e->seen.map->name +
+          (listened.empty() ? " does not listen to " + found
+                            : " listens to " + listened + ", " +
+                                  (exists ? "where nothing fit came" : "which nobody publishes")) +
+          ", for its sensor '" + sensor.name +
+          (listened.empty() ? "'." : "'; found: " + found + "."),
+      "Start it with " + sensor.name + '/' + topic + "=" + found +
+          " in topics:=, as the launch line does.",
+      Repair::kInLaunchLine);
+}
+
+void checkSensorInputs(Examination* e) {
+  const MapSetup& setup = e->setup;
+  for (std::size_t i = 0; i < setup.sensors.size(); ++i) {
+    const ScanTopics& sensor = setup.sensors[i];
+    const ListenedTopics listened = listenedBy(setup.node.sensors[i], e->seen);
+    const bool has_depth = sensor.points.empty();
+    checkSensorInput(sensor, listened.scans, sensor.scans(), has_depth ? "depth/image" : "points",
+                     e);
+    checkSensorInput(sensor, listened.camera_info, sensor.camera_info, "depth/camera_info", e);
+  }
+}
+
 }  // namespace
 
 void checkRunningMap(Examination* e) {
@@ -25,9 +55,13 @@ void checkRunningMap(Examination* e) {
   const RunningMap& map = *e->seen.map;
   const MapSetup& setup = e->setup;
   e->note("A map runs: " + map.name + "; its parameters and topics were looked at.");
-  checkInput("depth images", "sensor_msgs/Image", setup.depth_image, "depth_image", e);
-  checkInput("camera_info", "sensor_msgs/CameraInfo", setup.camera_info, "camera_info", e);
-  checkInput("clouds", "sensor_msgs/PointCloud2", setup.points, "points", e);
+  if (!setup.sensors.empty()) {
+    checkSensorInputs(e);
+  } else {
+    checkInput("depth images", "sensor_msgs/Image", setup.depth_image, "depth_image", e);
+    checkInput("camera_info", "sensor_msgs/CameraInfo", setup.camera_info, "camera_info", e);
+    checkInput("clouds", "sensor_msgs/PointCloud2", setup.points, "points", e);
+  }
   constexpr const char* kArguments[3] = {"odom", "pose", "transform"};
   if (setup.node.pose_source != PoseSource::kTf) {
     const auto source = static_cast<std::size_t>(setup.node.pose_source);

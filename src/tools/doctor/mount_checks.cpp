@@ -71,11 +71,17 @@ void checkMount(Examination* e) {
   }
   const std::string axis = " (its optical axis is " + numbers(mount.view) + " in the body)";
   if (direction != "ahead" && direction != "down") {
-    e->warn(
-        "The camera of frame '" + frame + "' looks " + direction + ", seen from the vehicle" +
-            axis + ".",
+    const std::string what = "The camera of frame '" + frame + "' looks " + direction +
+                             ", seen from the vehicle" + axis + ".";
+    const std::string remedy =
         "If it is not mounted so, correct the extrinsics: one that looks ahead has the rotation "
-        "-0.5 0.5 -0.5 0.5 to the body, and bodies are x ahead, y left, z up.");
+        "-0.5 0.5 -0.5 0.5 to the body, and bodies are x ahead, y left, z up.";
+    // Of several cameras, some look elsewhere.
+    if (e->setup.sensors.size() > 1) {
+      e->note(what, remedy);
+    } else {
+      e->warn(what, remedy);
+    }
   }
   if (mount.rollDegrees() > kMuchRoll) {
     e->warn(

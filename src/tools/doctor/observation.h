@@ -31,13 +31,21 @@ struct Received {
 template <typename Message>
 using ReceivedByTopic = std::map<std::string, std::vector<Received<Message>>>;
 
+/// Topics of one sensor that a mapping node listens to, with all remappings.
+struct ListenedTopics {
+  std::string scans;
+  std::string camera_info;  ///< empty: it needs none
+};
+
 /// A mapping node that runs while the graph is looked at.
 struct RunningMap {
   std::string name;                           ///< full, with '/'
+  std::string manager;                        ///< full name of its nodelet manager; empty: none
   ParameterMap parameters;                    ///< as it has them
   std::map<std::string, std::string> inputs;  ///< types of the topics that it listens to, by name
-  std::vector<std::string> errors;            ///< that /diagnostics said of it last
-  std::vector<std::string> warnings;          ///< likewise
+  std::map<std::string, ListenedTopics> sensors;  ///< as /diagnostics says, by name of the sensor
+  std::vector<std::string> errors;                ///< that /diagnostics said of it last
+  std::vector<std::string> warnings;              ///< likewise
 };
 
 /// What a live graph or a bag showed in some seconds. Live and recorded messages look the same.

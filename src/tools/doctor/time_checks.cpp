@@ -46,7 +46,7 @@ void checkStamps(const Messages& by_topic, const std::string& topic, Examination
            "Let the driver fill in header.stamp with the time of the measurement.");
 }
 
-void checkScanRate(const TopicHealth& scans, Examination* e) {
+void judgeScanRate(const TopicHealth& scans, Examination* e) {
   if (scans.messages > 1 && rateOf(scans) < kSlowScans) {
     e->warn("Scans come at " + withUnit(rateOf(scans), "Hz", 1) + " only.",
             "A voxel needs three hits to be occupied: raise the sensor's rate, or p_hit.");
@@ -58,7 +58,7 @@ void checkScanRate(const TopicHealth& scans, Examination* e) {
   }
 }
 
-void checkPoseRate(const TopicHealth& poses, Examination* e) {
+void judgePoseRate(const TopicHealth& poses, Examination* e) {
   if (poses.messages < 2) return;
   const double max_gap = e->setup.node.max_pose_gap;
   const std::string rate = withUnit(rateOf(poses), "Hz", 1);
@@ -91,16 +91,19 @@ void checkPoseRate(const TopicHealth& poses, Examination* e) {
 
 }  // namespace
 
-void checkRates(Examination* e) {
+void checkPoseRate(Examination* e) {
+  checkStamps(e->seen.poses, e->setup.poses, e);
+  judgePoseRate(poseTiming(*e), e);
+}
+
+void checkScanRate(Examination* e) {
   checkStamps(e->seen.images, e->setup.depth_image, e);
   checkStamps(e->seen.clouds, e->setup.points, e);
-  checkStamps(e->seen.poses, e->setup.poses, e);
-  checkScanRate(scanTiming(*e), e);
-  checkPoseRate(poseTiming(*e), e);
+  judgeScanRate(scanTiming(e->setup, e->seen), e);
 }
 
 void checkClocks(Examination* e) {
-  const TopicHealth scans = scanTiming(*e), poses = poseTiming(*e);
+  const TopicHealth scans = scanTiming(e->setup, e->seen), poses = poseTiming(*e);
   const bool are_stamped = countUnstamped(e->seen.images, e->setup.depth_image) == 0 &&
                            countUnstamped(e->seen.clouds, e->setup.points) == 0 &&
                            countUnstamped(e->seen.poses, e->setup.poses) == 0;

@@ -21,16 +21,15 @@ TopicHealth tfTiming(const Examination& e) {
 
 }  // namespace
 
-TopicHealth scanTiming(const Examination& e) {
-  const auto images = e.seen.images.find(e.setup.depth_image);
-  if (images != e.seen.images.end()) {
-    return healthOf(images->first, e.seen.types.at(images->first), kHasStamp,
+TopicHealth scanTiming(const ScanTopics& sensor, const Observation& seen) {
+  const auto images = seen.images.find(sensor.depth_image);
+  if (images != seen.images.end()) {
+    return healthOf(images->first, seen.types.at(images->first), kHasStamp,
                     timesOf(images->second));
   }
-  const auto clouds = e.seen.clouds.find(e.setup.points);
-  if (clouds == e.seen.clouds.end()) return {};
-  return healthOf(clouds->first, e.seen.types.at(clouds->first), kHasStamp,
-                  timesOf(clouds->second));
+  const auto clouds = seen.clouds.find(sensor.points);
+  if (clouds == seen.clouds.end()) return {};
+  return healthOf(clouds->first, seen.types.at(clouds->first), kHasStamp, timesOf(clouds->second));
 }
 
 TopicHealth poseTiming(const Examination& e) {

@@ -18,8 +18,8 @@ std::vector<MessageTime> timesOf(const std::vector<Received<Message>>& messages)
   return times;
 }
 
-/// Of the scans that were chosen; without messages where there are none.
-TopicHealth scanTiming(const Examination& examination);
+/// Of the scans of a sensor; without messages where there are none.
+TopicHealth scanTiming(const ScanTopics& sensor, const Observation& observation);
 /// Of the poses that were chosen: for TF the slowest link that moves between sensor and map frame.
 TopicHealth poseTiming(const Examination& examination);
 

@@ -10,34 +10,35 @@ namespace {
 
 class TrialListener : public ScanListener {
  public:
-  explicit TrialListener(Trial* trial) : trial_(trial) {}
+  explicit TrialListener(std::vector<Trial>* trials) : trials_(trials) {}
 
  private:
-  void onScan(const SynchronizedScan& /*scan*/) override { ++trial_->usable; }
-  void onDrop(const Drop& drop, std::size_t /*sensor*/) override {
-    ++trial_->dropped[drop.reason];
-    trial_->last_drop = drop;
+  void onScan(const SynchronizedScan& scan) override { ++trials_->at(scan.sensor).usable; }
+  void onDrop(const Drop& drop, std::size_t sensor) override {
+    Trial& trial = trials_->at(sensor);
+    ++trial.dropped[drop.reason];
+    trial.last_drop = drop;
   }
   void onTimeJump(const std::string& what) override { onWarning("time jumped: " + what); }
   void onWarning(const std::string& text) override {
-    std::vector<std::string>& warnings = trial_->warnings;
+    std::vector<std::string>& warnings = trials_->front().warnings;
     if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) {
       warnings.push_back(text);
     }
   }
 
-  Trial* trial_;
+  std::vector<Trial>* trials_;
 };
 
 /// What is to be done with each message, by its order of arrival.
-using Actions = std::map<std::size_t, std::function<void(ScanSynchronizer*)>>;
+using Actions = std::multimap<std::size_t, std::function<void(ScanSynchronizer*)>>;
 
 template <typename Message, typename Action>
 void schedule(const std::vector<Received<Message>>& messages, Action action, Actions* actions) {
   for (const Received<Message>& received : messages) {
-    (*actions)[received.order] = [message = received.message, action](ScanSynchronizer* to) {
+    actions->emplace(received.order, [message = received.message, action](ScanSynchronizer* to) {
       action(message, to);
-    };
+    });
   }
 }
 
@@ -49,15 +50,30 @@ void schedule(const ReceivedByTopic<Message>& all, const std::string& topic, Act
   if (found != all.end()) schedule(found->second, action, actions);
 }
 
+void scheduleSensor(const Observation& seen, const ScanTopics& topics, std::size_t sensor,
+                    Actions* actions) {
+  const auto add_scan = [sensor](const auto& scan, ScanSynchronizer* to) {
+    to->add(ScanMessage(scan), Moment(), sensor);
+  };
+  const auto add_info = [sensor](const auto& info, ScanSynchronizer* to) { to->add(info, sensor); };
+  schedule(seen.images, topics.depth_image, add_scan, actions);
+  schedule(seen.infos, topics.camera_info, add_info, actions);
+  schedule(seen.clouds, topics.points, add_scan, actions);
+}
+
+std::size_t scansSeen(const Observation& seen, const ScanTopics& topics) {
+  const auto images = seen.images.find(topics.depth_image);
+  if (images != seen.images.end()) return images->second.size();
+  const auto clouds = seen.clouds.find(topics.points);
+  return clouds == seen.clouds.end() ? 0 : clouds->second.size();
+}
+
 Actions actionsFor(const Observation& seen, const MapSetup& setup) {
   Actions actions;
-  const auto add_scan = [](const auto& scan, ScanSynchronizer* to) { to->add(ScanMessage(scan)); };
-  const auto add_info = [](const auto& info, ScanSynchronizer* to) { to->add(info); };
   const auto add_pose = [](const auto& pose, ScanSynchronizer* to) { to->add(PoseMessage(*pose)); };
-  schedule(seen.images, setup.depth_image, add_scan, &actions);
-  schedule(seen.infos, setup.camera_info, add_info, &actions);
-  schedule(seen.clouds, setup.points, add_scan, &actions);
   schedule(seen.poses, setup.poses, add_pose, &actions);
+  const std::vector<ScanTopics> sensors = setup.allSensors();
+  for (std::size_t i = 0; i < sensors.size(); ++i) scheduleSensor(seen, sensors[i], i, &actions);
   const auto add_tf = [](bool is_static) {
     return [is_static](const auto& transforms, ScanSynchronizer* to) {
       to->addTf(*transforms, is_static);
@@ -76,18 +92,29 @@ std::size_t Trial::decided() const {
   return count;
 }
 
-Trial tryOut(const Observation& seen, const MapSetup& setup) {
-  Trial trial;
-  if (setup.scans().empty()) return trial;
-  const auto images = seen.images.find(setup.depth_image);
-  const auto clouds = seen.clouds.find(setup.points);
-  trial.scans = images != seen.images.end()   ? images->second.size()
-                : clouds != seen.clouds.end() ? clouds->second.size()
-                                              : 0;
-  TrialListener listener(&trial);
+std::vector<Trial> tryOut(const Observation& seen, const MapSetup& setup) {
+  std::vector<Trial> trials;
+  for (const ScanTopics& sensor : setup.allSensors()) {
+    trials.emplace_back();
+    trials.back().scans = scansSeen(seen, sensor);
+  }
+  if (setup.scans().empty()) return trials;
+  TrialListener listener(&trials);
   ScanSynchronizer synchronizer(setup.node, &listener);
   for (const auto& [order, action] : actionsFor(seen, setup)) action(&synchronizer);
-  return trial;
+  return trials;
+}
+
+Trial sumOf(const std::vector<Trial>& trials) {
+  Trial sum;
+  for (const Trial& trial : trials) {
+    sum.scans += trial.scans;
+    sum.usable += trial.usable;
+    for (const auto& [reason, count] : trial.dropped) sum.dropped[reason] += count;
+    if (!trial.dropped.empty()) sum.last_drop = trial.last_drop;
+    sum.warnings.insert(sum.warnings.end(), trial.warnings.begin(), trial.warnings.end());
+  }
+  return sum;
 }
 
 }  // namespace fiimap

@@ -23,6 +23,11 @@ struct Trial {
 };
 
 /// Runs the node's own synchronisation on the messages in the order of their arrival.
-Trial tryOut(const Observation& observation, const MapSetup& setup);
+/// \return one trial for each of setup.allSensors(); warnings, which name no sensor, are the
+/// first's.
+std::vector<Trial> tryOut(const Observation& observation, const MapSetup& setup);
+
+/// Of all sensors.
+Trial sumOf(const std::vector<Trial>& trials);
 
 }  // namespace fiimap
