@@ -7,6 +7,7 @@ import subprocess
 import rospy
 import rostest
 
+from make_bag_variants import write_two_sensors
 from rostest_support import FLIGHT_BAG, MapTest, program, wait_for
 
 NOTHING_WRONG, PROBLEMS, CANNOT_LOOK = 0, 1, 2
@@ -17,15 +18,14 @@ ENOUGH = 5  # scans
 class DoctorTest(MapTest):
     def setUp(self):
         rospy.set_param('/use_sim_time', True)
-        for name in ('/fiimap', '/map'):
+        for name in ('/fiimap', '/map', '/drone1'):
             if rospy.has_param(name):
                 rospy.delete_param(name)
 
-    def loop(self, *topics, options=('--clock',)):
-        """Plays the flight again and again: all of it, or some topics."""
+    def loop(self, *topics, options=('--clock',), bag=FLIGHT_BAG):
+        """Plays a bag again and again: all of it, or some topics."""
         choice = ['--topics', *topics] if topics else []
-        player = self.start(program('rosbag', 'play'), '--quiet', '--loop', *options, FLIGHT_BAG,
-                            *choice)
+        player = self.start(program('rosbag', 'play'), '--quiet', '--loop', *options, bag, *choice)
         wait_for(lambda: '/odom' in dict(rospy.get_published_topics()), 'the player')
         return player
 
@@ -34,7 +34,7 @@ class DoctorTest(MapTest):
         result = subprocess.run(['rosrun', 'fiimap', 'doctor', *map(str, arguments)],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=90,
                                 universal_newlines=True)
-        line = re.search(r'^roslaunch .*', result.stdout, re.MULTILINE | re.DOTALL)
+        line = re.search(r'^roslaunch (.*\\\n)*.*', result.stdout, re.MULTILINE)
         said = ' '.join(result.stdout.split())
         return result.returncode, said, shlex.split(line.group(0).replace('\\\n', '')) if line else []
 
@@ -43,10 +43,12 @@ class DoctorTest(MapTest):
         for sentence in sentences:
             self.assertRegex(answer[1], sentence)
 
-    def assert_leads_to_a_map(self, words):
-        listener = self.listen('fiimap')
+    def assert_leads_to_a_map(self, words, name='fiimap', sensors=('',)):
+        listener = self.listen(name)
         launch = self.start(*words)
         listener.wait_for_integrated(ENOUGH)
+        wait_for(lambda: {each.sensor for each in listener.statistics} == set(sensors),
+                 f'scans of {sensors}')
         self.assertGreater(listener.newest().occupied, 100)
         self.assertEqual(launch.interrupt(), 0, launch.output())
 
@@ -112,6 +114,54 @@ class DoctorTest(MapTest):
                          '/map says: no scans received on /depth/image')
         self.assertIn(f'depth_image:={IMAGE}', answer[2])
         self.assertIn('map_frame:=world', answer[2])
+
+    def two_sensors(self):
+        bag = self.directory / 'two_sensors.bag'
+        write_two_sensors(FLIGHT_BAG, bag, 40)
+        return bag
+
+    def test_line_for_a_recording_of_two_sensors(self):
+        answer = self.ask(self.two_sensors())
+        self.assert_says(answer, NOTHING_WRONG, 'One map is made of 2 sensors')
+        self.assertIn('replay.launch', answer[2])
+        self.assert_leads_to_a_map(answer[2], sensors=('front', 'lidar'))
+
+    def test_a_map_of_two_sensors_that_hears_one(self):
+        self.loop(bag=self.two_sensors())
+        process, listener = self.start_map(
+            {'sensors': ['eye', 'lidar'], 'lidar': {'sensor': 'points', 'max_ray_length': 6.5}},
+            'eye/depth/image:=/front/depth/image_raw',
+            'eye/depth/camera_info:=/front/depth/camera_info', 'lidar/points:=/nowhere')
+        listener.wait_for_integrated(ENOUGH)
+        answer = self.ask()
+        self.assert_says(answer, PROBLEMS, "'eye' .*on /front/depth/image_raw",
+                         "listens to /nowhere, which nobody publishes, for its sensor 'lidar'; "
+                         'found: /lidar/points', 'The line keeps what /map has set: .*max_ray_length')
+        self.assertEqual(process.interrupt(), 0, process.output())
+        rospy.delete_param('/map')
+        self.assert_leads_to_a_map(answer[2], 'map', ('eye', 'lidar'))
+        self.assertEqual(rospy.get_param('/map/lidar/max_ray_length'), 6.5)
+
+    def test_a_map_in_a_namespace_and_a_manager(self):
+        self.loop()
+        self.start(program('nodelet', 'nodelet'), 'manager', '__name:=manager', '__ns:=/drone1')
+        rospy.wait_for_service('/drone1/manager/list')
+        self.set_parameters({'sensor': 'depth', 'max_depth': 5.5}, 'drone1/map')
+        listener = self.listen('drone1/map')
+        loader = self.start(program('nodelet', 'nodelet'), 'load', 'fiimap/MappingNodelet',
+                            '/drone1/manager', '__name:=map', '__ns:=/drone1',
+                            f'depth/camera_info:={INFO}', 'odom:=/odom')
+        self.wait_for_map(listener, loader)
+        answer = self.ask()
+        self.assert_says(answer, PROBLEMS, 'A map runs: /drone1/map',
+                         'listens to /drone1/depth/image .*which nobody publishes',
+                         'End the map that runs first: rosnode kill /drone1/map')
+        for word in ('__ns:=/drone1', 'name:=map', 'manager:=/drone1/manager'):
+            self.assertIn(word, answer[2])
+        self.assertEqual(loader.interrupt(), 0, loader.output())
+        rospy.delete_param('/drone1/map')
+        self.assert_leads_to_a_map(answer[2], 'drone1/map')
+        self.assertEqual(rospy.get_param('/drone1/map/max_depth'), 5.5)
 
 
 if __name__ == '__main__':

@@ -9,6 +9,7 @@ named SENSOR_POSESOURCE.bag and use the mapping node's own topic names.
 import argparse
 import array
 import contextlib
+import copy
 import itertools
 import pathlib
 
@@ -100,6 +101,42 @@ def write_variants(source, directory, scans, forms=FORMS):
                     if new_topic in {'/tf_static'} | TOPICS[sensor] | TOPICS[pose_source]:
                         output.write(new_topic, new_message, time, connection_header=header)
     return files
+
+
+def write_two_sensors(source, target, scans):
+    """Writes the beginning of the flight as of a camera, 'front', and a LiDAR, in one frame further
+    up, to which every second image goes as a cloud."""
+    info, images = None, 0
+    with rosbag.Bag(str(source)) as bag, rosbag.Bag(str(target), 'w') as output:
+        for topic, message, time, connection in bag.read_messages(return_connection_header=True):
+            kind = message._type
+            if kind == 'sensor_msgs/CameraInfo':
+                info = message
+                output.write('/front/depth/camera_info', message, time)
+            elif kind == 'sensor_msgs/Image':
+                if images == scans:
+                    break
+                images += 1
+                if images % 2 == 1:
+                    output.write('/front/depth/image_raw', message, time)
+                    continue
+                cloud = cloud_of(message, info)
+                cloud.header.frame_id = 'lidar'
+                output.write('/lidar/points', cloud, time)
+            else:
+                header = connection if topic.startswith('/tf') else None
+                if topic == '/tf_static':
+                    add_lidar(message)
+                output.write(topic, message, time, connection_header=header)
+
+
+def add_lidar(transforms):
+    """Half a metre above the camera, and turned like it."""
+    camera = transforms.transforms[-1]
+    lidar = copy.deepcopy(camera)
+    lidar.child_frame_id = 'lidar'
+    lidar.transform.translation.z += 0.5
+    transforms.transforms.append(lidar)
 
 
 def main():
