@@ -52,7 +52,7 @@ def scan(recording, path):
     view = recording.view(IMAGE)
     after = recording.map_of(IMAGE, IMAGE + 1, **AT_ONCE)
     figure, (left, right) = drawing.new_figure(
-        2, (10.5, 4.4), gridspec_kw={'width_ratios': [1.05, 1]})
+        2, (12.5, 5.6), gridspec_kw={'width_ratios': [1.05, 1]})
     shown = numpy.ma.masked_equal(view.depth, 0)
     left.set_facecolor(drawing.PALE)
     drawn = left.imshow(shown, cmap='viridis_r', vmin=0, vmax=8.5)
