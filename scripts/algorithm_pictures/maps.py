@@ -98,6 +98,8 @@ class Recording:
     def __init__(self, program, bag, folder):
         self.program = program
         self.folder = folder
+        self.last_cut = None  # first and end
+        self.maps = {}        # that were read, by their key
         with rosbag.Bag(str(bag)) as opened:
             self.messages = list(opened.read_messages())
 
@@ -113,6 +115,9 @@ class Recording:
     def cut(self, first, end):
         """A bag with the images first to end - 1 and everything else."""
         path = self.folder / 'cut.bag'
+        if self.last_cut == (first, end):
+            return path
+        self.last_cut = (first, end)
         number = -1
         with rosbag.Bag(str(path), 'w') as part:
             for topic, message, time in self.messages:
@@ -124,6 +129,11 @@ class Recording:
     def map_of(self, first, end, **parameters):
         """The map after these images. Its inflated layer is compared with brute force."""
         key = json.dumps([first, end, parameters], sort_keys=True)
+        if key not in self.maps:
+            self.maps[key] = self._make_map(key, first, end, parameters)
+        return self.maps[key]
+
+    def _make_map(self, key, first, end, parameters):
         prefix = self.folder / hashlib.sha256(key.encode()).hexdigest()[:12]
         figures_file = pathlib.Path(f'{prefix}.json')
         if not figures_file.exists():
