@@ -8,15 +8,15 @@ namespace {
 
 /// A radius written as a whole number of voxels (0.3 m at 0.1 m) must keep its outermost voxels
 /// although the quotient is not exact in floating point.
-constexpr double kRelativeSlack = 1e-6;
+constexpr double kRadiusSlack = 1e-6;
 
 }  // namespace
 
 StructuringElement::StructuringElement(ElementShape shape, double radius, double resolution)
     : shape_(shape), radius_(radius) {
   const double voxels = radius / resolution;
-  radius_voxels_ = shape == ElementShape::kBall ? voxels * (1.0 + kRelativeSlack)
-                                                : std::ceil(voxels * (1.0 - kRelativeSlack));
+  radius_voxels_ = shape == ElementShape::kBall ? voxels * (1.0 + kRadiusSlack)
+                                                : std::ceil(voxels * (1.0 - kRadiusSlack));
   reach_ = static_cast<int>(std::floor(radius_voxels_));
 
   for (int dx = -reach_; dx <= reach_; ++dx) {

@@ -21,7 +21,7 @@ constexpr unsigned kServiceThreads = 4;
 constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
 constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one kind
-constexpr double kMegabyte = 1e6;
+constexpr double kBytesPerMegabyte = 1e6;
 
 /// Parameters of others that live in our namespace.
 bool isForeignParameter(const std::string& name) { return name == "diagnostic_period"; }
@@ -91,7 +91,7 @@ void MappingNodelet::logStart(const Mapper& mapper) {
   const VoxelIndex size = mapper.grid().window().size();
   const double memory = static_cast<double>(mapper.grid().worstCaseMemoryBytes());
   NODELET_INFO("map: resolution %g m, window %d x %d x %d voxels, about %.0f MB when all is seen",
-               config.resolution, size.x(), size.y(), size.z(), memory / kMegabyte);
+               config.resolution, size.x(), size.y(), size.z(), memory / kBytesPerMegabyte);
   NODELET_INFO("inflation: radius %g m is %g voxels, reaches %d voxels", config.inflation_radius,
                config.inflation_radius / config.resolution, config.structuringElement().reach());
   NODELET_INFO("a voxel is occupied after %d hits, cleared after at most %d misses",

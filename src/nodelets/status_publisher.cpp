@@ -7,14 +7,14 @@
 namespace fiimap {
 namespace {
 
-constexpr int kQueue = 1;
+constexpr int kStatusQueue = 1;
 
 }  // namespace
 
 StatusPublisher::StatusPublisher(ros::NodeHandle node, const std::string& map_frame, double rate)
     : map_frame_(map_frame), thread_(rate, [this] { publish(); }) {
   publisher_ = node.advertise<visualization_msgs::MarkerArray>(
-      "status", kQueue, [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); });
+      "status", kStatusQueue, [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); });
 }
 
 StatusPublisher::~StatusPublisher() {

@@ -9,15 +9,16 @@
 namespace fiimap {
 namespace {
 
-constexpr int kQueue = 1;
+constexpr int kPathQueue = 1;
 
 }  // namespace
 
 VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const std::string& map_frame, double rate)
     : map_frame_(map_frame), thread_(rate, [this] { publish(); }) {
   const auto on_subscriber = [this](const ros::SingleSubscriberPublisher&) { onSubscriber(); };
-  path_publisher_ = node.advertise<nav_msgs::Path>("path", kQueue, on_subscriber);
-  vehicle_publisher_ = node.advertise<visualization_msgs::Marker>("vehicle", kQueue, on_subscriber);
+  path_publisher_ = node.advertise<nav_msgs::Path>("path", kPathQueue, on_subscriber);
+  vehicle_publisher_ =
+      node.advertise<visualization_msgs::Marker>("vehicle", kPathQueue, on_subscriber);
 }
 
 VehiclePublisher::~VehiclePublisher() {

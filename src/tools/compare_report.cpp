@@ -8,7 +8,7 @@
 namespace fiimap {
 namespace {
 
-constexpr double kNanosecond = 1e-9;  // s
+constexpr double kSecondsPerTick = 1e-9;  // of a stamp
 
 /// Half-open bins of the change score; 150 and 300 are the paper's marks.
 struct Bin {
@@ -98,7 +98,7 @@ std::string toCsv(const UpdateComparison& comparison) {
   text += '\n';
   for (std::size_t i = 0; i < comparison.changeScores().size(); ++i) {
     char row[96];
-    std::snprintf(row, sizeof(row), "%zu,%.6f,%.0f", i, comparison.stampsNs()[i] * kNanosecond,
+    std::snprintf(row, sizeof(row), "%zu,%.6f,%.0f", i, comparison.stampsNs()[i] * kSecondsPerTick,
                   comparison.changeScores()[i]);
     text += row;
     for (const MethodTimes& method : comparison.times()) {

@@ -10,8 +10,8 @@
 namespace fiimap {
 namespace {
 
-constexpr double kNanosecond = 1e-9;  // s
-constexpr int kReadingStep = 4;       // pixels
+constexpr double kStampUnit = 1e-9;  // s
+constexpr int kReadingStep = 4;      // pixels
 
 /// What the scans that found a pose are like.
 class ScanHealth : public ScanEvaluator {
@@ -50,7 +50,7 @@ class ScanHealth : public ScanEvaluator {
     pose_gaps_.push_back(scan.pose_gap);
     if (has_last_) {
       const double step = (scan.pose.vehicle_W - last_.vehicle_W).norm();
-      const double seconds = (scan.pose.stamp_ns - last_.stamp_ns) * kNanosecond;
+      const double seconds = (scan.pose.stamp_ns - last_.stamp_ns) * kStampUnit;
       path_ += step;
       if (seconds > 0.0) speeds_.push_back(step / seconds);
     }

@@ -59,7 +59,7 @@ void summarise(const std::vector<double>& times, const std::vector<double>& dela
   if (!delays.empty()) health->least_delay = *std::min_element(delays.begin(), delays.end());
 }
 
-nlohmann::json toJson(const Quantiles& q) {
+nlohmann::json quantilesToJson(const Quantiles& q) {
   return {{"median", q.median}, {"p95", q.p95}, {"max", q.max}};
 }
 
@@ -105,12 +105,12 @@ nlohmann::json toJson(const TopicHealth& health) {
       {"messages", health.messages},
       {"duration_s", health.duration},
       {"rate_hz", health.duration > 0.0 ? (health.messages - 1) / health.duration : 0.0},
-      {"interval_s", toJson(health.interval)},
+      {"interval_s", quantilesToJson(health.interval)},
       {"gaps", health.gaps},
       {"backward", health.backward},
   };
   if (health.has_stamp) {
-    json["delay_s"] = toJson(health.delay);
+    json["delay_s"] = quantilesToJson(health.delay);
     json["delay_s"]["min"] = health.least_delay;
   }
   return json;
