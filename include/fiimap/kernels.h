@@ -150,6 +150,7 @@ struct CubeRays {
 /// crosses a border of cache lines.
 struct alignas(64) Strip {
   static constexpr int kColumns = 32;  ///< of a tile at one x
+  static constexpr int kGroup = 8;     ///< columns of the longest vector
   std::uint64_t words[kColumns];       ///< by y in the tile
 };
 
@@ -161,12 +162,18 @@ struct StripSpan {
   ///@}
 };
 
+/// From the first set bit to the last one; there must be one.
+inline StripSpan spanOf(std::uint32_t columns) {
+  return {__builtin_ctz(columns), Strip::kColumns - __builtin_clz(columns)};
+}
+
 /// Dilation of columns by a structuring element, as Horner's scheme along z: to nothing, add the
 /// sources of the largest half height, dilate by one voxel up and down, add those of the next
 /// smaller half height, and so on down to 0.
 struct ColumnDilation {
   int words;      ///< of a column
   int word_step;  ///< from a word of the sources to the next one, strips
+  int row_step;   ///< from the sources of a row to those of the next one, strips
   ///@{
   /// Ring masks: all voxels but the window's top or bottom, whose bits leave it.
   std::vector<std::uint64_t> not_top, not_bottom;
@@ -216,17 +223,36 @@ struct Kernels {
   void (*observe)(const LogOdds& l, int words, const std::uint64_t* hit, const std::uint64_t* free,
                   const std::uint64_t* known, std::uint64_t* occupied, std::int8_t* log_odds);
 
-  /// Unions of neighbours: column c of widened[k] gets row[c - k] | ... | row[c + k], for
-  /// k = 0..reach.
-  void (*widen)(const std::uint64_t* row, StripSpan span, int reach, Strip* widened);
+  /// Unions of neighbours in `rows` rows that are `row_step` words apart: column c of widened[k]
+  /// gets row[c - k] | ... | row[c + k], for k = 0..reach; the next row's strips follow. May read
+  /// all of the columns -reach to Strip::kColumns + reach - 1 of a row.
+  void (*widen)(const std::uint64_t* row, int row_step, int rows, StripSpan span, int reach,
+                Strip* widened);
 
-  /// Dilates the columns of a row. \param source the row's strip; dilated has one strip per word.
-  void (*dilate)(const ColumnDilation& dilation, const Strip* source, StripSpan span,
-                 Strip* dilated);
+  /// Dilates columns of `rows` rows.
+  /// \param source the first row's strip.
+  /// \param columns bits of the columns of each row that are wanted; those between are dilated,
+  /// too. \param dilated one strip per word for each row.
+  void (*dilate)(const ColumnDilation& dilation, const Strip* source, const std::uint32_t* columns,
+                 int rows, Strip* dilated);
 
   /// Replaces words.
   /// \return how many bits more are set than before.
   int (*replace)(const std::uint64_t* words, int count, std::uint64_t* target);
+
+  /// Replaces columns of `rows` rows of a tile.
+  /// \param words one strip per word for each row.
+  /// \param columns bits of the columns of each row; those between are replaced, too.
+  /// \param target the lowest word of the first column of the first row.
+  /// \return how many bits more are set than before.
+  int (*replaceRows)(const Strip* words, const std::uint32_t* columns, int rows,
+                     int words_per_column, std::uint64_t* target);
+
+  /// Adds the bits of words to those of the target, `count` (a multiple of Strip::kGroup) in each
+  /// of `rows` rows that are row_step and target_step words apart. \return how many bits more are
+  /// set than before.
+  int (*add)(const std::uint64_t* words, int row_step, int rows, int count, std::uint64_t* target,
+             int target_step);
 };
 
 /// In plain C++, which the compiler turns into the instructions that every machine has.

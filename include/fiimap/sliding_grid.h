@@ -47,6 +47,8 @@ class ColumnLayout {
   int words_;
 };
 
+/// Lowest coordinate of the tile that holds this one.
+inline int tileFloor(int coordinate) { return coordinate & ~(kTileSide - 1); }
 /// Index of column (x, y) within its tile.
 inline int columnInTile(int x, int y) {
   return ((x & (kTileSide - 1)) << kTileShift) | (y & (kTileSide - 1));
@@ -126,6 +128,8 @@ class SlidingGrid {
   /// Sets one bit. Voxels outside the window are ignored.
   void set(Plane plane, const VoxelIndex& v, bool value);
 
+  /// Whether something was ever written in the tile of column (x, y).
+  bool isLive(int x, int y) const { return slots_[ring_.slotOf(x, y)].tile != nullptr; }
   /// Words of a column, layout().words() of them; those of the columns after it along y follow, to
   /// the end of its tile. All zero where nothing was ever written.
   const std::uint64_t* column(Plane plane, int x, int y) const {
@@ -139,6 +143,18 @@ class SlidingGrid {
   }
   /// The same for the columns (x, y), (x, y + 1), ..., which must lie in one tile.
   void writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words);
+  /// Replaces columns of one tile, in `rows` rows along x from that of (x, y) on, where y is the
+  /// tile's lowest. Writing what is there already costs no copy.
+  /// \param columns bits of those in each row; those between are replaced, too.
+  /// \param words one strip per word for each row; bits outside the window must be zero.
+  void replaceRows(Plane plane, int x, int y, int rows, const std::uint32_t* columns,
+                   const Strip* words);
+  /// Sets bits of columns of one tile, `columns` of them from (x, y) on in each of `rows` rows
+  /// along x. Setting what is set already costs no copy. \param columns a multiple of
+  /// Strip::kGroup. \param words of the first row; those of the next one are `row_step` words
+  /// later. Bits outside the window must be zero.
+  void addToColumns(Plane plane, int x, int y, int rows, int columns, const std::uint64_t* words,
+                    int row_step);
   /// Log-odds of a column, one byte per bit of the ring; meaningful where the voxel is known.
   /// Allocates; the pointer holds until the window moves.
   std::int8_t* logOdds(int x, int y);
@@ -198,6 +214,9 @@ class SlidingGrid {
   };
 
   Slot& liveSlot(int x, int y);
+  bool isWritable(const Slot& slot) const {
+    return slot.tile != nullptr && slot.generation == generation_;
+  }
   std::uint64_t* writableTile(Slot* slot);
   void drop(int slot);
   void forgetTile(int slot, std::vector<VoxelIndex>* forgotten);

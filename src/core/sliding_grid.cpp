@@ -5,6 +5,11 @@
 namespace fiimap {
 namespace {
 
+/// By `bits` modulo those of a word.
+std::uint64_t rotatedLeft(std::uint64_t word, int bits) {
+  return word << (bits & (kWordBits - 1)) | word >> (-bits & (kWordBits - 1));
+}
+
 int ringSide(int columns) {
   int side = 1;
   while (side < TileRing::tilesAcross(columns)) side *= 2;
@@ -156,16 +161,6 @@ void SlidingGrid::set(Plane plane, const VoxelIndex& v, bool value) {
   slot.counts[static_cast<int>(plane)] += value ? 1 : -1;
 }
 
-void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std::uint64_t* words) {
-  const int count = columns * layout_.words();
-  const Slot* const slot = &slots_[ring_.slotOf(x, y)];
-  const bool writing_costs_more = slot->tile == nullptr || slot->generation != generation_;
-  if (writing_costs_more && std::equal(words, words + count, column(plane, x, y))) return;
-  Slot& live = liveSlot(x, y);
-  std::uint64_t* const target = writableTile(&live) + offsetInTile(plane, x, y, layout_);
-  live.counts[static_cast<int>(plane)] += kernels_.replace(words, count, target);
-}
-
 std::int8_t* SlidingGrid::logOdds(int x, int y) {
   Slot& slot = liveSlot(x, y);
   return slot.log_odds.get() + static_cast<std::size_t>(columnInTile(x, y)) * layout_.bits();
@@ -209,9 +204,14 @@ void SlidingGrid::forgetUnseen(int index, std::vector<VoxelIndex>* obstacles) {
 }
 
 void SlidingGrid::heightMask(int min_z, int max_z, std::uint64_t* words) const {
-  std::fill_n(words, layout_.words(), 0);
   const int end_z = std::min(max_z, window_.max.z());
-  for (int z = std::max(min_z, window_.min.z()); z < end_z;) {
+  int z = std::max(min_z, window_.min.z());
+  if (layout_.words() == 1) {  // by the loop below: four times as long
+    *words = z < end_z ? rotatedLeft(~std::uint64_t{0} >> (kWordBits - (end_z - z)), z) : 0;
+    return;
+  }
+  std::fill_n(words, layout_.words(), 0);
+  while (z < end_z) {
     const int bit = layout_.bitOf(z);
     const int first = bit % kWordBits;
     const int count = std::min(kWordBits - first, end_z - z);  // heights in this word
@@ -233,7 +233,7 @@ SlidingGrid::Slot& SlidingGrid::liveSlot(int x, int y) {
   if (slot.tile != nullptr) return slot;
   slot.tile.reset(new std::uint64_t[tileWords(layout_)]());
   slot.generation = generation_;
-  slot.origin = {x & ~(kTileSide - 1), y & ~(kTileSide - 1), 0};
+  slot.origin = {tileFloor(x), tileFloor(y), 0};
   if (spare_log_odds_.empty()) {
     slot.log_odds.reset(new std::int8_t[logOddsBytes()]);
   } else {

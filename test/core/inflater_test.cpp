@@ -45,7 +45,8 @@ Effort effortFor(const Case& c) {
   const bool is_large = c.element.ceilOfRadius() > 4;
   switch (c.method.method) {
     case InflationMethod::kIncremental:
-      return is_large ? Effort{20, 40, 1} : Effort{60, 60, 1};
+      // Few obstacles and many that appear at once are not inflated alike.
+      return is_large ? Effort{20, 100, 1} : Effort{60, 160, 1};
     case InflationMethod::kBfs:
       return is_large ? Effort{6, 4, 3} : Effort{12, 20, 1};
     case InflationMethod::kBatch:

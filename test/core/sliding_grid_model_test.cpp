@@ -183,10 +183,27 @@ class History {
         const int bit = grid_.layout().bitOf(z);
         words[bit / kWordBits] |= std::uint64_t{1} << (bit % kWordBits);
       }
-      grid_.writeColumn(plane, any.x(), any.y(), words.data());
+      writeColumn(plane, any.x(), any.y(), words);
       const std::uint64_t* stored = grid_.column(plane, any.x(), any.y());
       ASSERT_TRUE(std::equal(words.begin(), words.end(), stored));
     }
+  }
+
+  /// In one of the ways that there are.
+  void writeColumn(Plane plane, int x, int y, const std::vector<std::uint64_t>& words) {
+    const int tile_y = tileFloor(y), column = y - tile_y;
+    if (test::chance(random_, 0.3)) return grid_.writeColumn(plane, x, y, words.data());
+    if (test::chance(random_, 0.5)) {
+      std::vector<Strip> strips(words.size());
+      for (std::size_t w = 0; w < words.size(); ++w) strips[w].words[column] = words[w];
+      const std::uint32_t columns = std::uint32_t{1} << column;
+      return grid_.replaceRows(plane, x, tile_y, 1, &columns, strips.data());
+    }
+    const std::vector<std::uint64_t> nothing(words.size());
+    std::vector<std::uint64_t> row(Strip::kColumns * words.size());
+    std::copy(words.begin(), words.end(), row.begin() + column * words.size());
+    grid_.writeColumn(plane, x, y, nothing.data());
+    grid_.addToColumns(plane, x, tile_y, 1, Strip::kColumns, row.data(), 0);
   }
 
   void clearSomething() {

@@ -184,6 +184,39 @@ TEST(SlidingGridTest, ReplacesColumnsAndCounts) {
   EXPECT_TRUE(test::planeEquals(grid, Plane::kInflated, test::VoxelField(window)));
 }
 
+TEST(SlidingGridTest, CopiesASharedTileOnlyForAChange) {
+  SlidingGrid grid({80, 80, 60});
+  Strip row = {};
+  row.words[3] = row.words[5] = 6;
+  const std::uint32_t columns = 1u << 3 | 1u << 5;
+  const auto replaceAndAdd = [&] {
+    grid.replaceRows(Plane::kInflated, 7, 0, 1, &columns, &row);
+    grid.addToColumns(Plane::kInflated, 9, 0, 1, Strip::kGroup, row.words, Strip::kColumns);
+  };
+  const Strip empty = {};
+  grid.replaceRows(Plane::kInflated, 7, 0, 1, &columns, &empty);
+  grid.addToColumns(Plane::kInflated, 9, 0, 1, Strip::kGroup, empty.words, Strip::kColumns);
+  EXPECT_FALSE(grid.isLive(7, 0));
+  replaceAndAdd();
+  test::VoxelField expected(grid.window());
+  for (const int x : {7, 9}) {
+    for (const int y : {3, 5}) {
+      for (const int z : {1, 2}) expected.mark({x, y, z});
+    }
+  }
+  EXPECT_TRUE(test::planeEquals(grid, Plane::kInflated, expected));
+  const auto shared = grid.shareTiles();
+  replaceAndAdd();
+  EXPECT_EQ(grid.shareTiles(), shared);
+  row.words[5] = 7;
+  grid.replaceRows(Plane::kInflated, 7, 0, 1, &columns, &row);
+  const auto shared_again = grid.shareTiles();
+  EXPECT_NE(shared_again, shared);
+  grid.addToColumns(Plane::kInflated, 9, 0, 1, Strip::kGroup, row.words, Strip::kColumns);
+  EXPECT_NE(grid.shareTiles(), shared_again);
+  EXPECT_EQ(grid.count(Plane::kInflated), 10);
+}
+
 TEST(SlidingGridTest, HeightMaskHoldsTheHeightsOfTheRangeAndTheWindow) {
   for (const int height : {1, 30, 60, 63, 64, 65, 120, 128, 130}) {
     SlidingGrid grid({1, 1, height});

@@ -17,13 +17,20 @@ inline StripSpan wholeGroups(const StripSpan& span) {
   return {span.first / kGroup * kGroup, (span.end + kGroup - 1) / kGroup * kGroup};
 }
 
-inline void widen(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) {
+inline void widenRow(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) {
   const auto [first, end] = wholeGroups(span);
   for (int c = first; c < end; ++c) widened->words[c] = row[c];
   for (int k = 1; k <= reach; ++k) {
     const std::uint64_t* const narrower = widened[k - 1].words;
     std::uint64_t* const wider = widened[k].words;
     for (int c = first; c < end; ++c) wider[c] = narrower[c] | row[c - k] | row[c + k];
+  }
+}
+
+inline void widen(const std::uint64_t* row, int row_step, int rows, StripSpan span, int reach,
+                  Strip* widened) {
+  for (int i = 0; i < rows; ++i) {
+    widenRow(row + i * row_step, span, reach, widened + i * (reach + 1));
   }
 }
 
@@ -65,8 +72,8 @@ inline void addSources(const Strip* source, const std::int32_t* sources, int cou
   std::memcpy(sum, all, sizeof(all));
 }
 
-inline void dilate(const ColumnDilation& dilation, const Strip* source, StripSpan span,
-                   Strip* dilated) {
+inline void dilateRow(const ColumnDilation& dilation, const Strip* source, StripSpan span,
+                      Strip* dilated) {
   const auto [first, end] = wholeGroups(span);
   for (int w = 0; w < dilation.words; ++w)
     std::fill(dilated[w].words + first, dilated[w].words + end, 0);
@@ -83,12 +90,50 @@ inline void dilate(const ColumnDilation& dilation, const Strip* source, StripSpa
   }
 }
 
+inline void dilate(const ColumnDilation& dilation, const Strip* source,
+                   const std::uint32_t* columns, int rows, Strip* dilated) {
+  for (int i = 0; i < rows; ++i) {
+    if (columns[i] == 0) continue;
+    dilateRow(dilation, source + i * dilation.row_step, spanOf(columns[i]),
+              dilated + i * dilation.words);
+  }
+}
+
 inline int replace(const std::uint64_t* words, int count, std::uint64_t* target) {
   int more = 0;
   for (int w = 0; w < count; ++w) {
     if (words[w] == target[w]) continue;  // mostly
     more += countBits(words[w]) - countBits(target[w]);
     target[w] = words[w];
+  }
+  return more;
+}
+
+inline int replaceRows(const Strip* words, const std::uint32_t* columns, int rows,
+                       int words_per_column, std::uint64_t* target) {
+  int more = 0;
+  for (int i = 0; i < rows; ++i) {
+    if (columns[i] == 0) continue;
+    const StripSpan span = spanOf(columns[i]);
+    for (int w = 0; w < words_per_column; ++w) {
+      const std::uint64_t* const row = words[i * words_per_column + w].words;
+      std::uint64_t* const to = target + i * Strip::kColumns * words_per_column + w;
+      for (int c = span.first; c < span.end; ++c) {
+        more += replace(row + c, 1, to + c * words_per_column);
+      }
+    }
+  }
+  return more;
+}
+
+inline int add(const std::uint64_t* words, int row_step, int rows, int count, std::uint64_t* target,
+               int target_step) {
+  int more = 0;
+  for (int i = 0; i < rows; ++i, words += row_step, target += target_step) {
+    for (int w = 0; w < count; ++w) {
+      more += countBits(words[w] & ~target[w]);
+      target[w] |= words[w];
+    }
   }
   return more;
 }

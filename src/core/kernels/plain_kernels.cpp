@@ -8,10 +8,10 @@
 namespace fiimap {
 
 const Kernels& plainKernels() {
-  static const Kernels kernels{"plain",         plain::readDepths, plain::projectRow,
-                               plain::listEnds, plain::selectEnds, plain::roundRays,
-                               plain::walk,     plain::freeRuns,   plain::observe,
-                               plain::widen,    plain::dilate,     plain::replace};
+  static const Kernels kernels{
+      "plain",          plain::readDepths, plain::projectRow,  plain::listEnds, plain::selectEnds,
+      plain::roundRays, plain::walk,       plain::freeRuns,    plain::observe,  plain::widen,
+      plain::dilate,    plain::replace,    plain::replaceRows, plain::add};
   return kernels;
 }
 

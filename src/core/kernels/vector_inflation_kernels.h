@@ -7,10 +7,12 @@
 #define FIIMAP_VECTOR_INFLATION_KERNELS_H
 #endif
 
+#include <algorithm>
 #include <cstdint>
 
 #include "fiimap/bit_column.h"
 #include "fiimap/kernels.h"
+#include "plain_inflation_kernels.h"
 #include "vectors.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,12 +20,16 @@ namespace fiimap {
 namespace HWY_NAMESPACE {
 
 constexpr int kWordLanes = static_cast<int>(hn::MaxLanes(Words()));
-/// Columns that are dilated together, in registers.
-constexpr int kDilatedColumns = 16;
+///@{
+/// Columns that are dilated together, in registers: with few alone, wide rows take 15 % more, with
+/// many alone the narrow ones around single voxels.
+constexpr int kManyColumns = 16;
+constexpr int kFewColumns = 8;
+///@}
 
 HWY_INLINE int roundDown(int column, int block) { return column & -block; }
 
-void widen(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) {
+HWY_INLINE void widenRow(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) {
   const Words d;
   for (int c = roundDown(span.first, kWordLanes); c < span.end; c += kWordLanes) {
     auto all = hn::LoadU(d, row + c);
@@ -35,49 +41,62 @@ void widen(const std::uint64_t* row, StripSpan span, int reach, Strip* widened) 
   }
 }
 
+void widen(const std::uint64_t* row, int row_step, int rows, StripSpan span, int reach,
+           Strip* widened) {
+  for (int i = 0; i < rows; ++i) {
+    widenRow(row + i * row_step, span, reach, widened + i * (reach + 1));
+  }
+}
+
 /// A word of neighbouring columns.
+template <int kColumns>
 struct WordBlock {
-  static constexpr int kVectors = kDilatedColumns / kWordLanes;
+  static constexpr int kVectors = kColumns / kWordLanes;
   /// Written down, because compilers make it without this instruction set.
   HWY_INLINE WordBlock() {}
   WordVector part[kVectors];
 };
 
-HWY_INLINE WordBlock zeroBlock() {
-  WordBlock block;
+template <int kColumns>
+HWY_INLINE WordBlock<kColumns> zeroBlock() {
+  WordBlock<kColumns> block;
   for (auto& part : block.part) part = hn::Zero(Words());
   return block;
 }
 
-HWY_INLINE WordBlock loadBlock(const std::uint64_t* words) {
-  WordBlock block;
-  for (int i = 0; i < WordBlock::kVectors; ++i) {
+template <int kColumns>
+HWY_INLINE WordBlock<kColumns> loadBlock(const std::uint64_t* words) {
+  WordBlock<kColumns> block;
+  for (int i = 0; i < block.kVectors; ++i) {
     block.part[i] = hn::Load(Words(), words + i * kWordLanes);
   }
   return block;
 }
 
-HWY_INLINE void storeBlock(const WordBlock& block, std::uint64_t* words) {
-  for (int i = 0; i < WordBlock::kVectors; ++i) {
+template <int kColumns>
+HWY_INLINE void storeBlock(const WordBlock<kColumns>& block, std::uint64_t* words) {
+  for (int i = 0; i < block.kVectors; ++i) {
     hn::Store(block.part[i], Words(), words + i * kWordLanes);
   }
 }
 
-HWY_INLINE WordBlock masked(const WordBlock& block, std::uint64_t mask) {
-  WordBlock result;
-  for (int i = 0; i < WordBlock::kVectors; ++i) {
+template <int kColumns>
+HWY_INLINE WordBlock<kColumns> masked(const WordBlock<kColumns>& block, std::uint64_t mask) {
+  WordBlock<kColumns> result;
+  for (int i = 0; i < result.kVectors; ++i) {
     result.part[i] = hn::And(block.part[i], hn::Set(Words(), mask));
   }
   return result;
 }
 
 /// Adds the strips that are `sources` away.
+template <int kColumns>
 HWY_INLINE void addSources(const Strip* source, const std::int32_t* sources, int count, int column,
-                           WordBlock* sum) {
-  WordBlock all = *sum;
+                           WordBlock<kColumns>* sum) {
+  WordBlock<kColumns> all = *sum;
   for (int s = 0; s < count; ++s) {
     const std::uint64_t* const words = source[sources[s]].words + column;
-    for (int i = 0; i < WordBlock::kVectors; ++i) {
+    for (int i = 0; i < all.kVectors; ++i) {
       all.part[i] = hn::Or(all.part[i], hn::Load(Words(), words + i * kWordLanes));
     }
   }
@@ -85,10 +104,12 @@ HWY_INLINE void addSources(const Strip* source, const std::int32_t* sources, int
 }
 
 /// Adds the bits that move up by one, of the word itself and of that below it, and down.
-HWY_INLINE void addShifted(const WordBlock& up, const WordBlock& up_below, const WordBlock& down,
-                           const WordBlock& down_above, WordBlock* word) {
+template <int kColumns>
+HWY_INLINE void addShifted(const WordBlock<kColumns>& up, const WordBlock<kColumns>& up_below,
+                           const WordBlock<kColumns>& down, const WordBlock<kColumns>& down_above,
+                           WordBlock<kColumns>* word) {
   constexpr int kCarry = kWordBits - 1;
-  for (int i = 0; i < WordBlock::kVectors; ++i) {
+  for (int i = 0; i < up.kVectors; ++i) {
     const auto risen =
         hn::Or(hn::ShiftLeft<1>(up.part[i]), hn::ShiftRight<kCarry>(up_below.part[i]));
     const auto sunk =
@@ -99,14 +120,15 @@ HWY_INLINE void addShifted(const WordBlock& up, const WordBlock& up_below, const
 
 /// Columns of one word, which stays in registers: with dilateTall() all of inflation takes 14 %
 /// more.
+template <int kColumns>
 HWY_INLINE void dilateLow(const ColumnDilation& dilation, const Strip* source, int column,
                           Strip* dilated) {
-  WordBlock word = zeroBlock();
+  WordBlock<kColumns> word = zeroBlock<kColumns>();
   int s = 0;
   for (const int sources_end : dilation.sources_end) {
     if (s > 0) {
-      const WordBlock up = masked(word, dilation.not_top[0]);
-      const WordBlock down = masked(word, dilation.not_bottom[0]);
+      const WordBlock<kColumns> up = masked(word, dilation.not_top[0]);
+      const WordBlock<kColumns> down = masked(word, dilation.not_bottom[0]);
       addShifted(up, up, down, down, &word);
     }
     addSources(source, dilation.sources.data() + s, sources_end - s, column, &word);
@@ -116,15 +138,18 @@ HWY_INLINE void dilateLow(const ColumnDilation& dilation, const Strip* source, i
 }
 
 /// One voxel up and down.
+template <int kColumns>
 HWY_INLINE void dilateAlongZ(const ColumnDilation& dilation, int column, Strip* dilated) {
   const int last = dilation.words - 1;
-  const WordBlock first_word = loadBlock(dilated[0].words + column);
-  WordBlock up_below = masked(loadBlock(dilated[last].words + column), dilation.not_top[last]);
-  WordBlock word = first_word;
+  const WordBlock<kColumns> first_word = loadBlock<kColumns>(dilated[0].words + column);
+  WordBlock<kColumns> up_below =
+      masked(loadBlock<kColumns>(dilated[last].words + column), dilation.not_top[last]);
+  WordBlock<kColumns> word = first_word;
   for (int w = 0; w <= last; ++w) {
-    const WordBlock above = w < last ? loadBlock(dilated[w + 1].words + column) : first_word;
-    const WordBlock up = masked(word, dilation.not_top[w]);
-    const WordBlock down = masked(word, dilation.not_bottom[w]);
+    const WordBlock<kColumns> above =
+        w < last ? loadBlock<kColumns>(dilated[w + 1].words + column) : first_word;
+    const WordBlock<kColumns> up = masked(word, dilation.not_top[w]);
+    const WordBlock<kColumns> down = masked(word, dilation.not_bottom[w]);
     addShifted(up, up_below, down, masked(above, dilation.not_bottom[w < last ? w + 1 : 0]), &word);
     storeBlock(word, dilated[w].words + column);
     up_below = up;
@@ -132,13 +157,15 @@ HWY_INLINE void dilateAlongZ(const ColumnDilation& dilation, int column, Strip* 
   }
 }
 
+template <int kColumns>
 HWY_INLINE void dilateTall(const ColumnDilation& dilation, const Strip* source, int column,
                            Strip* dilated) {
   int s = 0;
   for (const int sources_end : dilation.sources_end) {
-    if (s > 0) dilateAlongZ(dilation, column, dilated);
+    if (s > 0) dilateAlongZ<kColumns>(dilation, column, dilated);
     for (int w = 0; w < dilation.words; ++w) {
-      WordBlock word = s > 0 ? loadBlock(dilated[w].words + column) : zeroBlock();
+      WordBlock<kColumns> word =
+          s > 0 ? loadBlock<kColumns>(dilated[w].words + column) : zeroBlock<kColumns>();
       addSources(source + w * dilation.word_step, dilation.sources.data() + s, sources_end - s,
                  column, &word);
       storeBlock(word, dilated[w].words + column);
@@ -147,14 +174,39 @@ HWY_INLINE void dilateTall(const ColumnDilation& dilation, const Strip* source, 
   }
 }
 
-void dilate(const ColumnDilation& dilation, const Strip* source, StripSpan span, Strip* dilated) {
-  for (int c = roundDown(span.first, kDilatedColumns); c < span.end; c += kDilatedColumns) {
-    if (dilation.words == 1) {
-      dilateLow(dilation, source, c, dilated);
-    } else {
-      dilateTall(dilation, source, c, dilated);
-    }
+template <int kColumns>
+HWY_INLINE void dilateBlock(const ColumnDilation& dilation, const Strip* source, int column,
+                            Strip* dilated) {
+  if (dilation.words == 1) {
+    dilateLow<kColumns>(dilation, source, column, dilated);
+  } else {
+    dilateTall<kColumns>(dilation, source, column, dilated);
   }
+}
+
+HWY_INLINE void dilateRow(const ColumnDilation& dilation, const Strip* source, StripSpan span,
+                          Strip* dilated) {
+  int c = roundDown(span.first, kFewColumns);
+  for (; c + kFewColumns < span.end; c += kManyColumns) {
+    dilateBlock<kManyColumns>(dilation, source, c, dilated);
+  }
+  if (c < span.end) dilateBlock<kFewColumns>(dilation, source, c, dilated);
+}
+
+void dilate(const ColumnDilation& dilation, const Strip* source, const std::uint32_t* columns,
+            int rows, Strip* dilated) {
+  for (int i = 0; i < rows; ++i) {
+    if (columns[i] == 0) continue;
+    dilateRow(dilation, source + i * dilation.row_step, spanOf(columns[i]),
+              dilated + i * dilation.words);
+  }
+}
+
+/// Number of set bits of each word. By bytes: with Highway's sum of the words' own parts half of
+/// the instructions more.
+HWY_INLINE WordVector countBits(WordVector words) {
+  const hn::Repartition<std::uint8_t, Words> bytes;
+  return hn::SumsOf8(hn::PopulationCount(hn::BitCast(bytes, words)));
 }
 
 int replace(const std::uint64_t* words, int count, std::uint64_t* target) {
@@ -165,15 +217,56 @@ int replace(const std::uint64_t* words, int count, std::uint64_t* target) {
     const auto before = hn::LoadU(d, target + w);
     const auto after = hn::LoadU(d, words + w);
     if (hn::AllTrue(d, hn::Eq(before, after))) continue;  // mostly
-    more = hn::Add(more, hn::Sub(hn::PopulationCount(after), hn::PopulationCount(before)));
+    more = hn::Add(more, hn::Sub(countBits(after), countBits(before)));
     hn::StoreU(after, d, target + w);
   }
   int sum = static_cast<int>(hn::GetLane(hn::SumOfLanes(d, more)));
   for (; w < count; ++w) {
-    sum += countBits(words[w]) - countBits(target[w]);
+    sum += fiimap::countBits(words[w]) - fiimap::countBits(target[w]);
     target[w] = words[w];
   }
   return sum;
+}
+
+/// Columns of one word. Not by replace(): its loop over the words at the end takes three times as
+/// long for the few of a row.
+int replaceLow(const Strip* words, const std::uint32_t* columns, int rows, std::uint64_t* target) {
+  const Words d;
+  auto more = hn::Zero(d);
+  for (int i = 0; i < rows; ++i, target += Strip::kColumns) {
+    if (columns[i] == 0) continue;
+    const StripSpan span = spanOf(columns[i]);
+    for (int c = roundDown(span.first, kWordLanes); c < span.end; c += kWordLanes) {
+      const auto before = hn::LoadU(d, target + c);
+      const auto is_before_span = hn::FirstN(d, std::max(span.first - c, 0));
+      const auto is_in_span = hn::AndNot(is_before_span, hn::FirstN(d, span.end - c));
+      const auto after = hn::IfThenElse(is_in_span, hn::Load(d, words[i].words + c), before);
+      more = hn::Add(more, hn::Sub(countBits(after), countBits(before)));
+      hn::StoreU(after, d, target + c);
+    }
+  }
+  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, more)));
+}
+
+int replaceRows(const Strip* words, const std::uint32_t* columns, int rows, int words_per_column,
+                std::uint64_t* target) {
+  if (words_per_column == 1) return replaceLow(words, columns, rows, target);
+  return plain::replaceRows(words, columns, rows, words_per_column, target);
+}
+
+int add(const std::uint64_t* words, int row_step, int rows, int count, std::uint64_t* target,
+        int target_step) {
+  const Words d;
+  auto more = hn::Zero(d);
+  for (int i = 0; i < rows; ++i, words += row_step, target += target_step) {
+    for (int w = 0; w < count; w += kWordLanes) {
+      const auto before = hn::LoadU(d, target + w);
+      const auto added = hn::LoadU(d, words + w);
+      more = hn::Add(more, countBits(hn::AndNot(before, added)));
+      hn::StoreU(hn::Or(before, added), d, target + w);
+    }
+  }
+  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, more)));
 }
 
 }  // namespace HWY_NAMESPACE

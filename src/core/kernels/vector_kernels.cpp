@@ -24,9 +24,10 @@ HWY_BEFORE_NAMESPACE();
 namespace fiimap {
 namespace HWY_NAMESPACE {
 
-const TargetKernels kTargetKernels{HWY_TARGET,
-                                   {nullptr, readDepths, projectRow, listEnds, selectEnds,
-                                    roundRays, walk, freeRuns, observe, widen, dilate, replace}};
+const TargetKernels kTargetKernels{
+    HWY_TARGET,
+    {nullptr, readDepths, projectRow, listEnds, selectEnds, roundRays, walk, freeRuns, observe,
+     widen, dilate, replace, replaceRows, add}};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace fiimap
