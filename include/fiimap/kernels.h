@@ -240,13 +240,13 @@ struct Kernels {
   /// \return how many bits more are set than before.
   int (*replace)(const std::uint64_t* words, int count, std::uint64_t* target);
 
-  /// Replaces columns of `rows` rows of a tile.
-  /// \param words one strip per word for each row.
+  /// Replaces columns of one word in `rows` rows of a tile.
+  /// \param words one strip for each row.
   /// \param columns bits of the columns of each row; those between are replaced, too.
-  /// \param target the lowest word of the first column of the first row.
+  /// \param target the first column of the first row.
   /// \return how many bits more are set than before.
   int (*replaceRows)(const Strip* words, const std::uint32_t* columns, int rows,
-                     int words_per_column, std::uint64_t* target);
+                     std::uint64_t* target);
 
   /// Adds the bits of words to those of the target, `count` (a multiple of Strip::kGroup) in each
   /// of `rows` rows that are row_step and target_step words apart. \return how many bits more are

@@ -213,6 +213,8 @@ class SlidingGrid {
     std::int32_t counts[kPlaneCount] = {0, 0, 0};  ///< set voxels of each plane
   };
 
+  void replaceTallRows(Plane plane, int x, int y, int rows, const std::uint32_t* columns,
+                       const Strip* words);
   Slot& liveSlot(int x, int y);
   bool isWritable(const Slot& slot) const {
     return slot.tile != nullptr && slot.generation == generation_;
@@ -240,6 +242,7 @@ class SlidingGrid {
   std::vector<int> live_;
   std::vector<std::unique_ptr<std::int8_t[]>> spare_log_odds_;
   std::vector<std::uint64_t> zero_row_;  // of the columns of a tile at one x
+  std::vector<std::uint64_t> tall_row_;  // scratch
   std::uint64_t generation_ = 0;
 };
 

@@ -206,7 +206,7 @@ void SlidingGrid::forgetUnseen(int index, std::vector<VoxelIndex>* obstacles) {
 void SlidingGrid::heightMask(int min_z, int max_z, std::uint64_t* words) const {
   const int end_z = std::min(max_z, window_.max.z());
   int z = std::max(min_z, window_.min.z());
-  if (layout_.words() == 1) {  // by the loop below: four times as long
+  if (layout_.words() == 1) {  // by the loop below: two and a half times the instructions
     *words = z < end_z ? rotatedLeft(~std::uint64_t{0} >> (kWordBits - (end_z - z)), z) : 0;
     return;
   }

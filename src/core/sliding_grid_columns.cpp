@@ -8,17 +8,11 @@
 namespace fiimap {
 namespace {
 
-/// Whether the columns of a row are others than those of the strips.
-bool differs(const Strip* words, std::uint32_t columns, int words_per_column,
-             const std::uint64_t* row) {
+/// Whether the columns of a row are others than those of the strip.
+bool differs(const Strip& words, std::uint32_t columns, const std::uint64_t* row) {
   if (columns == 0) return false;
-  const StripSpan span = spanOf(columns);
-  for (int c = span.first; c < span.end; ++c) {
-    for (int w = 0; w < words_per_column; ++w) {
-      if (row[c * words_per_column + w] != words[w].words[c]) return true;
-    }
-  }
-  return false;
+  const auto [first, end] = spanOf(columns);
+  return !std::equal(words.words + first, words.words + end, row + first);
 }
 
 }  // namespace
@@ -36,19 +30,32 @@ void SlidingGrid::writeColumns(Plane plane, int x, int y, int columns, const std
 
 void SlidingGrid::replaceRows(Plane plane, int x, int y, int rows, const std::uint32_t* columns,
                               const Strip* words) {
+  if (layout_.words() > 1) return replaceTallRows(plane, x, y, rows, columns, words);
   Slot* slot = &slots_[ring_.slotOf(x, y)];
   if (!isWritable(*slot)) {
-    bool changes_something = false;
-    for (int i = 0; i < rows; ++i) {
-      changes_something = changes_something || differs(words + i * layout_.words(), columns[i],
-                                                       layout_.words(), column(plane, x + i, y));
-    }
-    if (!changes_something) return;
+    int row = 0;
+    while (row < rows && !differs(words[row], columns[row], column(plane, x + row, y))) ++row;
+    if (row == rows) return;
     slot = &liveSlot(x, y);
   }
   std::uint64_t* const target = writableTile(slot) + offsetInTile(plane, x, y, layout_);
-  slot->counts[static_cast<int>(plane)] +=
-      kernels_.replaceRows(words, columns, rows, layout_.words(), target);
+  slot->counts[static_cast<int>(plane)] += kernels_.replaceRows(words, columns, rows, target);
+}
+
+/// Of columns of several words, which lie side by side.
+void SlidingGrid::replaceTallRows(Plane plane, int x, int y, int rows, const std::uint32_t* columns,
+                                  const Strip* words) {
+  const int step = layout_.words();
+  tall_row_.resize(static_cast<std::size_t>(step) * kTileSide);
+  for (int i = 0; i < rows; ++i, words += step) {
+    if (columns[i] == 0) continue;
+    const StripSpan span = spanOf(columns[i]);
+    for (int w = 0; w < step; ++w) {
+      for (int c = span.first; c < span.end; ++c) tall_row_[c * step + w] = words[w].words[c];
+    }
+    writeColumns(plane, x + i, y + span.first, span.end - span.first,
+                 tall_row_.data() + span.first * step);
+  }
 }
 
 void SlidingGrid::addToColumns(Plane plane, int x, int y, int rows, int columns,

@@ -107,29 +107,26 @@ TEST_P(InflationKernels, Replace) {
 
 TEST_P(InflationKernels, ReplaceRows) {
   for (int round = 0; round < kRounds; ++round) {
-    const int words = 1 << test::uniformInt(random_, 0, 3);
     const int rows = test::uniformInt(random_, 1, 5);
-    std::vector<Strip> strips(rows * words);
+    std::vector<Strip> strips(rows);
     std::vector<std::uint32_t> columns(rows);
-    std::vector<std::uint64_t> target(rows * Strip::kColumns * words);
+    std::vector<std::uint64_t> target(rows * Strip::kColumns);
     for (std::uint64_t& word : target) word = randomWord();
     for (std::uint32_t& bits : columns) bits = randomColumns(random_);
     std::vector<std::uint64_t> expected = target;
     int more = 0;
-    for (int strip = 0; strip < rows * words; ++strip) {
-      const std::uint32_t bits = columns[strip / words];
-      const StripSpan span = bits == 0 ? StripSpan{0, 0} : spanOf(bits);
+    for (int i = 0; i < rows; ++i) {
+      const StripSpan span = columns[i] == 0 ? StripSpan{0, 0} : spanOf(columns[i]);
       for (int c = 0; c < Strip::kColumns; ++c) {
-        std::uint64_t& word =
-            expected[(strip / words * Strip::kColumns + c) * words + strip % words];
-        std::uint64_t& replacing = strips[strip].words[c];
+        std::uint64_t& word = expected[i * Strip::kColumns + c];
+        std::uint64_t& replacing = strips[i].words[c];
         replacing = test::chance(random_, 0.5) ? word : randomWord();
         if (c < span.first || c >= span.end) continue;
         more += countBits(replacing) - countBits(word);
         word = replacing;
       }
     }
-    ASSERT_EQ(tested_.replaceRows(strips.data(), columns.data(), rows, words, target.data()), more);
+    ASSERT_EQ(tested_.replaceRows(strips.data(), columns.data(), rows, target.data()), more);
     ASSERT_EQ(target, expected);
   }
 }

@@ -110,18 +110,12 @@ inline int replace(const std::uint64_t* words, int count, std::uint64_t* target)
 }
 
 inline int replaceRows(const Strip* words, const std::uint32_t* columns, int rows,
-                       int words_per_column, std::uint64_t* target) {
+                       std::uint64_t* target) {
   int more = 0;
-  for (int i = 0; i < rows; ++i) {
+  for (int i = 0; i < rows; ++i, target += Strip::kColumns) {
     if (columns[i] == 0) continue;
-    const StripSpan span = spanOf(columns[i]);
-    for (int w = 0; w < words_per_column; ++w) {
-      const std::uint64_t* const row = words[i * words_per_column + w].words;
-      std::uint64_t* const to = target + i * Strip::kColumns * words_per_column + w;
-      for (int c = span.first; c < span.end; ++c) {
-        more += replace(row + c, 1, to + c * words_per_column);
-      }
-    }
+    const auto [first, end] = spanOf(columns[i]);
+    more += replace(words[i].words + first, end - first, target + first);
   }
   return more;
 }
