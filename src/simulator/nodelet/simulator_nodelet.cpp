@@ -112,13 +112,17 @@ void SimulatorNodelet::step() {
     command_.reset();
   }
   simulator_->advance();
+  // Asked before the pose goes out: who subscribes to poses and then to images, meanwhile, would
+  // get an image from before its first pose.
+  const bool image_is_due = simulator_->cameraIsDue() && publisher_->imageIsWanted();
+  const bool cloud_is_due = simulator_->lidarIsDue() && publisher_->cloudIsWanted();
   publisher_->publishState(*simulator_);
-  publishSensors();
+  publishSensors(image_is_due, cloud_is_due);
 }
 
-void SimulatorNodelet::publishSensors() {
+void SimulatorNodelet::publishSensors(bool image_is_due, bool cloud_is_due) {
   const bool is_late = !config_.publish_clock && pacer_->delay() > kMaxDelay;
-  if (simulator_->cameraIsDue() && publisher_->imageIsWanted()) {
+  if (image_is_due) {
     if (is_late) {
       NODELET_WARN_THROTTLE(kWarningPeriod,
                             "the machine is too slow to render every frame: lower camera_rate or "
@@ -127,7 +131,7 @@ void SimulatorNodelet::publishSensors() {
       publisher_->publishImage(simulator_->time(), simulator_->depthImage());
     }
   }
-  if (simulator_->lidarIsDue() && publisher_->cloudIsWanted() && !is_late) {
+  if (cloud_is_due && !is_late) {
     publisher_->publishCloud(simulator_->time(), simulator_->lidarPoints());
   }
 }

@@ -37,7 +37,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   // On the simulating thread.
   void run();
   void step();
-  void publishSensors();
+  void publishSensors(bool image_is_due, bool cloud_is_due);
 
   SimulatorConfig config_;
   std::unique_ptr<Simulator> simulator_;
