@@ -10,10 +10,10 @@ namespace fiimap {
 
 /// Forgets what scans have not seen for a while: things that moved on, traces of drift. A voxel
 /// that no scan hit or passed becomes unknown, never free, when between one and two decay times
-/// have gone by; tiles are visited in turn, each once in a decay time, so that no scan does more
-/// than its share. Time is that of the scans' stamps, and a gap between two scans counts as one
-/// decay time at most: a sensor that fell silent says nothing about the world. Not in the paper.
-/// Not thread-safe.
+/// have gone by; tiles are visited in turn, each once in a decay time, so that a scan visits few.
+/// Time is that of the scans' stamps, and a gap between two scans counts as one decay time at most:
+/// a sensor that fell silent says nothing about the world. The scan after such a gap visits all
+/// tiles. Not in the paper. Not thread-safe.
 class Decay {
  public:
   /// \param time s; 0: nothing is forgotten.

@@ -58,7 +58,7 @@ struct ScanReport {
   std::size_t raise = 0;      ///< voxels that ceased to be occupied; see ChangeSet
   std::size_t lower = 0;      ///< voxels that became occupied
   std::size_t forgotten = 0;  ///< occupied voxels that the window left behind
-  VoxelBox update_box;        ///< voxels that it could change
+  VoxelBox update_box;        ///< voxels that its rays could change
   StageTimes times_ms;        ///< but for the snapshot
 
   /// The paper's: see ChangeSet::score().
