@@ -19,12 +19,13 @@ bool ElementStamp::fits(const VoxelIndex& v, const VoxelBox& window) const {
          v.y() - reach_ >= window.min.y() && v.y() + reach_ < window.max.y();
 }
 
-/// Tile by tile, mostly one or two.
+/// Tile by tile, mostly one or two; a tile's side is whole groups.
 void ElementStamp::apply(const VoxelIndex& v, SlidingGrid* grid) {
   print(v, *grid);
   const int words = grid->layout().words();
   const int low_x = v.x() - reach_, low_y = v.y() - reach_;
-  const int end_x = v.x() + reach_ + 1, end_y = v.y() + reach_ + 1;
+  const int end_x = v.x() + reach_ + 1;
+  const int end_y = (v.y() + reach_ + Strip::kGroup) & -Strip::kGroup;
   for (int x = low_x, next_x; x < end_x; x = next_x) {
     next_x = std::min(end_x, tileFloor(x) + kTileSide);
     for (int y = low_y & -Strip::kGroup, next_y; y < end_y; y = next_y) {

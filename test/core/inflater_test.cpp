@@ -93,6 +93,46 @@ std::string nameOf(const ::testing::TestParamInfo<Case>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, InflaterTest, ::testing::ValuesIn(allCases()), nameOf);
 
+/// Elements wider than a tile. Single obstacles that appear in the middle of the window are not
+/// inflated as others are.
+class WideElementTest : public ::testing::TestWithParam<ElementDefinition> {};
+
+TEST_P(WideElementTest, EqualsTheDefinitionAroundObstaclesInTheMiddle) {
+  constexpr int kSteps = 16, kMostFlips = 3, kFarthestSlide = 9;
+  const int reach = GetParam().ceilOfRadius();
+  const VoxelIndex to_middle(reach, reach, 0);
+  for (const VoxelIndex& middle : {VoxelIndex(7, 11, 9), VoxelIndex(16, 3, 70)}) {
+    test::Random random(reach);
+    InflatedWorld world({InflationMethod::kIncremental, 6}, GetParam(), middle + 2 * to_middle,
+                        &random);
+    for (int step = 0; step < test::effort(kSteps); ++step) {
+      SCOPED_TRACE("middle " + test::describe(middle) + ", step " + std::to_string(step));
+      const int farthest = test::chance(random, 0.3) ? kFarthestSlide : 0;
+      const VoxelIndex slide(test::uniformInt(random, -farthest, farthest),
+                             test::uniformInt(random, -farthest, farthest),
+                             test::uniformInt(random, -farthest, farthest));
+      const VoxelIndex min = world.grid().window().min + slide + to_middle;
+      test::VoxelSet flips;
+      for (int i = test::uniformInt(random, 1, kMostFlips); i > 0; --i) {
+        flips.insert(test::uniformVoxel(random, {min, min + middle}));
+      }
+      world.update(slide, flips);
+      ASSERT_TRUE(world.inflationIsExact());
+    }
+  }
+}
+
+std::string nameOfElement(const ::testing::TestParamInfo<ElementDefinition>& info) {
+  return test::nameOf(info.param.shape) + "_" + std::to_string(info.param.radius_mm) + "mm";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WideElementTest,
+                         ::testing::Values(ElementDefinition{ElementShape::kBall, 1700},
+                                           ElementDefinition{ElementShape::kCube, 1700},
+                                           ElementDefinition{ElementShape::kDiamond, 3300},
+                                           ElementDefinition{ElementShape::kCube, 3300}),
+                         nameOfElement);
+
 constexpr int kFlips = 20;
 
 class InflationRadiusTest : public ::testing::TestWithParam<Method> {};
