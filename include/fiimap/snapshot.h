@@ -136,6 +136,7 @@ class Snapshot {
 
   Info info_;
   VoxelLattice lattice_;
+  VoxelBounds bounds_;  // the window
   ColumnLayout layout_;
   TileRing ring_;
   std::vector<std::shared_ptr<const Tile>> tiles_;

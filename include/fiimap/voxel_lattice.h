@@ -40,6 +40,20 @@ struct VoxelBox {
   ///@}
 };
 
+/// The corners of a box of voxels as numbers with which points in voxels can be compared.
+struct VoxelBounds {
+  /// Of the box.
+  explicit VoxelBounds(const VoxelBox& box)
+      : min(box.min.cast<double>()), max(box.max.cast<double>()) {}
+  /// Whether a point (voxels) is inside; one that is not finite is not.
+  bool contains(const Eigen::Vector3d& p) const {
+    return (p.array() >= min.array()).all() && (p.array() < max.array()).all();
+  }
+
+  Eigen::Vector3d min;  ///< voxels
+  Eigen::Vector3d max;  ///< voxels
+};
+
 /// Largest integer that is not above the value, which must be a number in the range of int. Without
 /// SSE4.1, std::floor is a function call.
 template <typename Scalar>
@@ -65,12 +79,11 @@ class VoxelLattice {
   }
   /// Voxel that holds the point (metres). Requires canIndex(point_W).
   VoxelIndex indexOf(const Eigen::Vector3d& point_W) const { return floorOf(toVoxels(point_W)); }
-  /// Voxel of the box that holds the point (metres).
+  /// Voxel within the bounds that holds the point (metres).
   /// \return false when none does, or the point is not finite; v is left as it was.
-  bool indexIn(const VoxelBox& box, const Eigen::Vector3d& point_W, VoxelIndex* v) const {
+  bool indexIn(const VoxelBounds& bounds, const Eigen::Vector3d& point_W, VoxelIndex* v) const {
     const Eigen::Vector3d p = toVoxels(point_W);
-    const bool inside = (p.array() >= box.min.cast<double>().array()).all() &&
-                        (p.array() < box.max.cast<double>().array()).all();
+    const bool inside = bounds.contains(p);
     if (inside) *v = floorOf(p);
     return inside;
   }

@@ -9,6 +9,7 @@ namespace fiimap {
 Snapshot::Snapshot(SlidingGrid* grid, const Info& info)
     : info_(info),
       lattice_(info.resolution),
+      bounds_(grid->window()),
       layout_(grid->layout()),
       ring_(grid->ring()),
       tiles_(grid->shareTiles()) {
@@ -18,6 +19,29 @@ Snapshot::Snapshot(SlidingGrid* grid, const Info& info)
   }
 }
 
+// Inline: other functions of a shared library are called through a table, by itself too, which
+// took a third of the time of a query.
+
+inline bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const {
+  const unsigned bit = layout_.bitOf(v.z());
+  const std::uint64_t* const words = tile + offsetInTile(plane, v.x(), v.y(), layout_);
+  return ((words[bit / kWordBits] >> (bit % kWordBits)) & 1u) != 0;
+}
+
+inline Occupancy Snapshot::measuredOccupancy(const VoxelIndex& v) const {
+  const std::uint64_t* const tile = tileAt(v.x(), v.y());
+  if (tile == nullptr) return Occupancy::kUnknown;
+  if (test(tile, Plane::kOccupied, v)) return Occupancy::kOccupied;
+  return test(tile, Plane::kKnown, v) ? Occupancy::kFree : Occupancy::kUnknown;
+}
+
+inline Inflation Snapshot::measuredInflation(const VoxelIndex& v) const {
+  const std::uint64_t* const tile = tileAt(v.x(), v.y());
+  if (tile == nullptr) return Inflation::kUnknown;
+  if (test(tile, Plane::kInflated, v)) return Inflation::kInflated;
+  return test(tile, Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
+}
+
 Occupancy Snapshot::occupancy(const VoxelIndex& v) const {
   if (!window().contains(v)) return Occupancy::kOutside;
   return beyondWalls(lattice_.centerOf(v).z()) ? Occupancy::kOccupied : measuredOccupancy(v);
@@ -25,7 +49,7 @@ Occupancy Snapshot::occupancy(const VoxelIndex& v) const {
 
 Occupancy Snapshot::occupancy(const Eigen::Vector3d& point_W) const {
   VoxelIndex v;
-  if (!lattice_.indexIn(window(), point_W, &v)) return Occupancy::kOutside;
+  if (!lattice_.indexIn(bounds_, point_W, &v)) return Occupancy::kOutside;
   return beyondWalls(point_W.z()) ? Occupancy::kOccupied : measuredOccupancy(v);
 }
 
@@ -36,22 +60,8 @@ Inflation Snapshot::inflation(const VoxelIndex& v) const {
 
 Inflation Snapshot::inflation(const Eigen::Vector3d& point_W) const {
   VoxelIndex v;
-  if (!lattice_.indexIn(window(), point_W, &v)) return Inflation::kOutside;
+  if (!lattice_.indexIn(bounds_, point_W, &v)) return Inflation::kOutside;
   return beyondWalls(point_W.z()) ? Inflation::kInflated : measuredInflation(v);
-}
-
-Occupancy Snapshot::measuredOccupancy(const VoxelIndex& v) const {
-  const std::uint64_t* const tile = tileAt(v.x(), v.y());
-  if (tile == nullptr) return Occupancy::kUnknown;
-  if (test(tile, Plane::kOccupied, v)) return Occupancy::kOccupied;
-  return test(tile, Plane::kKnown, v) ? Occupancy::kFree : Occupancy::kUnknown;
-}
-
-Inflation Snapshot::measuredInflation(const VoxelIndex& v) const {
-  const std::uint64_t* const tile = tileAt(v.x(), v.y());
-  if (tile == nullptr) return Inflation::kUnknown;
-  if (test(tile, Plane::kInflated, v)) return Inflation::kInflated;
-  return test(tile, Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
 }
 
 bool Snapshot::isObstacle(const VoxelIndex& v, const ObstacleRules& rules) const {
@@ -92,12 +102,6 @@ bool Snapshot::lineOfSight(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_
   const bool a_is_first =
       std::lexicographical_compare(a_W.data(), a_W.data() + 3, b_W.data(), b_W.data() + 3);
   return !castRay(a_is_first ? a_W : b_W, a_is_first ? b_W : a_W, rules);
-}
-
-bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const {
-  const int bit = layout_.bitOf(v.z());
-  const std::uint64_t* const words = tile + offsetInTile(plane, v.x(), v.y(), layout_);
-  return ((words[bit / kWordBits] >> (bit % kWordBits)) & 1u) != 0;
 }
 
 std::vector<VoxelIndex> Snapshot::voxels(Plane plane, const VoxelBox& box) const {
