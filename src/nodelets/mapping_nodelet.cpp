@@ -15,9 +15,11 @@ namespace {
 
 constexpr int kStatisticsQueue = 100;
 constexpr int kHandleQueue = 10;
-// One input after another; services may wait, write files or ask much of the map.
+// One input after another; services may wait, write files or ask much of the map, and however many
+// of them do, diagnostics go on.
 constexpr unsigned kInputThreads = 1;
 constexpr unsigned kServiceThreads = 4;
+constexpr unsigned kDiagnosticsThreads = 1;
 constexpr double kDiagnosticsPeriod = 1.0;               // s
 constexpr std::chrono::seconds kMissingInputPeriod{10};  // between warnings, and before the first
 constexpr std::chrono::seconds kDropPeriod{5};           // between warnings of one kind
@@ -33,7 +35,9 @@ double physicalMemoryBytes() {
 }  // namespace
 
 MappingNodelet::MappingNodelet()
-    : input_threads_(kInputThreads), service_threads_(kServiceThreads) {}
+    : input_threads_(kInputThreads),
+      service_threads_(kServiceThreads),
+      diagnostics_threads_(kDiagnosticsThreads) {}
 
 void MappingNodelet::onInit() {
   MapperConfig mapper_config;
@@ -57,6 +61,7 @@ void MappingNodelet::onInit() {
   mapping_->start();
   input_threads_.start();
   service_threads_.start();
+  diagnostics_threads_.start();
 }
 
 MappingNodelet::~MappingNodelet() {
@@ -66,6 +71,7 @@ MappingNodelet::~MappingNodelet() {
   mapping_->stop();
   input_threads_.stop();
   service_threads_.stop();
+  diagnostics_threads_.stop();
 }
 
 void MappingNodelet::configureFromParameters(MapperConfig* mapper_config) {
@@ -119,11 +125,11 @@ void MappingNodelet::advertise() {
   diagnostics_ = std::make_unique<MappingDiagnostics>(getNodeHandle(), node, getName(), *inputs_,
                                                       [this] { return mapping_->counters(); });
 
-  ros::NodeHandle services = service_threads_.attach(getPrivateNodeHandle());
-  services_ = std::make_unique<MapServices>(services, node_config_, handle_, mapping_.get());
-  diagnostics_timer_ =
-      services.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
-                               [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
+  services_ = std::make_unique<MapServices>(service_threads_.attach(getPrivateNodeHandle()),
+                                            node_config_, handle_, mapping_.get());
+  diagnostics_timer_ = diagnostics_threads_.attach(node).createWallTimer(
+      ros::WallDuration(kDiagnosticsPeriod),
+      [this](const ros::WallTimerEvent&) { onDiagnosticsTimer(); });
 }
 
 void MappingNodelet::onDiagnosticsTimer() {

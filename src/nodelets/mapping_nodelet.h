@@ -57,6 +57,7 @@ class MappingNodelet : public nodelet::Nodelet, private MapObserver {
   // Longer than all that is registered with them.
   CallbackThreads input_threads_;
   CallbackThreads service_threads_;
+  CallbackThreads diagnostics_threads_;
 
   // When a drop was warned of, by reason and sensor; of the mapping thread alone.
   std::map<std::pair<DropReason, std::string>, std::chrono::steady_clock::time_point> warned_;
