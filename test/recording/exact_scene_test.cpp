@@ -114,32 +114,56 @@ class SceneListener : public ScanListener {
   double time_ = 0.0;
 };
 
-class ExactSceneTest : public testing::TestWithParam<double> {
- protected:
-  ExactSceneTest() : scene_(ExactScene::load(kFlightScene)) {
+/// The map at the end of the flight.
+struct FlownMap {
+  FlownMap(double resolution, const ExactScene& scene) {
     MapperConfig config;
-    config.resolution = GetParam();
-    listener_ = std::make_unique<SceneListener>(config, scene_);
+    config.resolution = resolution;
+    listener = std::make_unique<SceneListener>(config, scene);
     rosbag::Bag bag(kFlightBag, rosbag::bagmode::Read);
     NodeConfig node;
     const BagTopics topics = chooseTopics(bag, {}, {}, &node);
     ScanCounters counters;
-    BagPlayer(bag, topics, node).play(listener_.get(), &counters);
-    map_ = listener_->map();
+    BagPlayer(bag, topics, node).play(listener.get(), &counters);
+    snapshot = listener->map();
+  }
+
+  std::unique_ptr<SceneListener> listener;
+  std::shared_ptr<const Snapshot> snapshot;
+};
+
+/// All tests of a resolution look at one flight.
+class ExactSceneTest : public testing::TestWithParam<double> {
+ protected:
+  static void SetUpTestSuite() { scene_ = new ExactScene(ExactScene::load(kFlightScene)); }
+  static void TearDownTestSuite() {
+    maps_.clear();
+    delete scene_;
+  }
+
+  void SetUp() override {
+    const double resolution = GetParam();
+    if (maps_.count(resolution) == 0) maps_.try_emplace(resolution, resolution, *scene_);
+    listener_ = maps_.at(resolution).listener.get();
+    map_ = maps_.at(resolution).snapshot.get();
   }
 
   bool nearPassing(const Eigen::Vector3d& point_W) const {
-    return scene_.distanceToPassing(point_W) < kPassingMargin;
+    return scene_->distanceToPassing(point_W) < kPassingMargin;
   }
 
-  ExactScene scene_;
-  std::unique_ptr<SceneListener> listener_;
-  std::shared_ptr<const Snapshot> map_;
+  static ExactScene* scene_;
+  static std::map<double, FlownMap> maps_;  // by resolution, m
+  const SceneListener* listener_ = nullptr;
+  const Snapshot* map_ = nullptr;
 };
+
+ExactScene* ExactSceneTest::scene_ = nullptr;
+std::map<double, FlownMap> ExactSceneTest::maps_;
 
 TEST_P(ExactSceneTest, FindsSurfacesThatWereSeenOften) {
   TruthCount count;
-  compareWithScene(*map_, scene_, listener_->surface(), map_->window(), listener_->time(), &count);
+  compareWithScene(*map_, *scene_, listener_->surface(), map_->window(), listener_->time(), &count);
   std::cout << "resolution " << GetParam() << " m: " << 100.0 * count.recallOften() << " % of "
             << count.often << " surface cells seen in at least " << TruthCount::kOften
             << " images are found\n";
@@ -154,7 +178,7 @@ TEST_P(ExactSceneTest, PutsObstaclesOnSurfaces) {
     const Eigen::Vector3d center_W = map_->lattice().centerOf(v);
     if (nearPassing(center_W)) continue;
     ++obstacles;
-    const double distance = std::abs(scene_.signedDistance(center_W, listener_->time()));
+    const double distance = std::abs(scene_->signedDistance(center_W, listener_->time()));
     if (distance > GetParam()) ++far;
     if (distance > half_diagonal) ++half;
   }
