@@ -42,12 +42,13 @@ class Traffic {
       case 6:
         if (bytes_.integer(0, 15) == 0) feed_.synchronizer().restart("the clock went back");
         break;
-      default:
-        feed_.add(cloud(), bytes_.integer(0, sensors_ - 1));
+      default: {
+        const ScanMessage scan = cloud();  // before the sensor, whatever the compiler
+        feed_.add(scan, bytes_.integer(0, sensors_ - 1));
+      }
     }
     const ScanCounters& counters = feed_.counters();
-    require(counters.received ==
-                counters.integrated + counters.dropped() + feed_.synchronizer().waiting(),
+    require(counters.received == counters.integrated + counters.dropped() + waiting(),
             "a scan is lost");
   }
 
@@ -58,6 +59,13 @@ class Traffic {
     MapperConfig config = smallMap();
     config.sensors.assign(node.sensors.size(), config);
     return config;
+  }
+
+  /// Scans of all sensors that wait.
+  std::size_t waiting() {
+    std::size_t scans = 0;
+    for (int i = 0; i < sensors_; ++i) scans += feed_.synchronizer().waiting(i);
+    return scans;
   }
 
   ros::Time takeStamp() {
