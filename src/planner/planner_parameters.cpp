@@ -23,7 +23,7 @@ Parameter pointsParameter(const std::string& name, std::vector<Eigen::Vector3d>*
     text.imbue(std::locale::classic());
     text.precision(std::numeric_limits<double>::digits10);
     for (const Eigen::Vector3d& point : *field) {
-      for (const double coordinate : point) text << (text.tellp() > 0 ? " " : "") << coordinate;
+      for (int axis = 0; axis < 3; ++axis) text << (text.tellp() > 0 ? " " : "") << point[axis];
     }
     return text.str();
   };
