@@ -67,7 +67,7 @@ SavedMap readPcd(const std::string& path) {
   constexpr double kOffCenter = 0.25;  // voxels; single precision is worse too far away
   for (long left = std::strtol(header["POINTS"].c_str(), nullptr, 10); left > 0; --left) {
     Eigen::Vector3d point_W;
-    for (double& coordinate : point_W) coordinate = file.take<float>();
+    for (int axis = 0; axis < 3; ++axis) point_W[axis] = file.take<float>();
     if (!lattice.canIndex(point_W)) file.fail("is damaged: a point is not finite or too far away");
     const VoxelIndex v = lattice.indexOf(point_W);
     if (lattice.toVoxels(point_W - lattice.centerOf(v)).cwiseAbs().maxCoeff() > kOffCenter) {
