@@ -1,59 +1,10 @@
 // Several sensors: which there are, and the line for one map of them all.
 
 #include "doctor/mount.h"
-#include "seen_vehicle.h"
+#include "two_sensors.h"
 
 namespace fiimap {
 namespace {
-
-const Eigen::Quaterniond kToTheLeft(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
-
-/// Adds the scans of another vehicle, as if they were of this one.
-void addScans(const Observation& other, Observation* seen) {
-  seen->types.insert(other.types.begin(), other.types.end());
-  seen->images.insert(other.images.begin(), other.images.end());
-  seen->depth.insert(other.depth.begin(), other.depth.end());
-  seen->infos.insert(other.infos.begin(), other.infos.end());
-  seen->clouds.insert(other.clouds.begin(), other.clouds.end());
-  seen->points.insert(other.points.begin(), other.points.end());
-}
-
-/// A camera ahead, and one of another name and frame.
-struct TwoCameras {
-  SeenVehicle vehicle, left;
-
-  TwoCameras() {
-    left.image_topic = "/left/depth/image_rect_raw";
-    left.info_topic = "/left/depth/camera_info";
-    left.image = setFrame<sensor_msgs::Image>("left_optical");
-    left.info = setFrame<sensor_msgs::CameraInfo>("left_optical");
-    vehicle.static_transforms.push_back(
-        transformOf("base_link", "left_optical", kToTheLeft * opticalRotation(), {0.0, 0.1, 0.0}));
-  }
-
-  template <typename Message>
-  static std::function<bool(Message*)> setFrame(const std::string& frame) {
-    return [frame](Message* message) {
-      message->header.frame_id = frame;
-      return kComes;
-    };
-  }
-
-  Diagnosis diagnosis(const DoctorWishes& wishes = {}) {
-    const Observation of_left = left.observation();
-    vehicle.more = [&of_left](Observation* seen) { addScans(of_left, seen); };
-    return vehicle.diagnosis(wishes);
-  }
-};
-
-SeenVehicle withCameraAndLidar() {
-  SeenVehicle vehicle;
-  vehicle.cloud = [](auto*) { return kComes; };
-  vehicle.cloud_topic = "/velodyne_points";
-  vehicle.static_transforms.push_back(
-      transformOf("base_link", "lidar", Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.3}));
-  return vehicle;
-}
 
 TEST(SeveralSensorsTest, MakeOneMapOfACameraAndALidar) {
   const Diagnosis diagnosis = withCameraAndLidar().diagnosis();

@@ -13,6 +13,7 @@ constexpr double kLidarLength = 20.0, kLidarNearest = 0.5, kLidarUpdateRange = 4
 
 void checkSensor(Examination* e) {
   checkScansCome(e);
+  if (!checkEncoding(e)) return;
   checkCameraInfo(e);
   checkDepthReadings(e);
   checkCloudPoints(e);

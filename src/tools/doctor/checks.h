@@ -6,9 +6,12 @@ namespace fiimap {
 
 // The checks in the order in which they are made. Thresholds and reasons are beside them.
 
-/// choose_scans.cpp: depth images or clouds of one sensor or several, and the topics that are given
-/// names for.
+/// choose_scans.cpp: depth images or clouds of one sensor or several.
+/// \throws std::invalid_argument when topics that the user named cannot be used together.
 void chooseScans(Examination* examination);
+/// choose_camera_infos.cpp: for the depth images that were chosen.
+/// \throws std::invalid_argument when one that the user named may be of several.
+void chooseCameraInfos(Examination* examination);
 /// choose_poses.cpp
 void choosePoses(Examination* examination);
 
@@ -23,6 +26,8 @@ void checkPoseRate(Examination* examination);
 void checkSensors(Examination* examination);
 /// choose_scans.cpp: whether a message came.
 void checkScansCome(Examination* examination);
+/// image_checks.cpp: \return false where the images are none of depth, which is all to say of them.
+bool checkEncoding(Examination* examination);
 /// image_checks.cpp: whether there is a camera_info that fits.
 void checkCameraInfo(Examination* examination);
 /// image_checks.cpp: pixels without depth, and the unit of the others.

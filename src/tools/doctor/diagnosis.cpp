@@ -145,6 +145,7 @@ std::size_t Diagnosis::count(Severity severity) const {
 Diagnosis diagnose(const Observation& observation, const DoctorWishes& wishes) {
   Examination e(observation, wishes);
   chooseScans(&e);
+  chooseCameraInfos(&e);
   choosePoses(&e);
   checkPoseValues(&e);
   checkMapFrame(&e);

@@ -22,7 +22,8 @@ struct Diagnosis {
   std::size_t count(Severity severity) const;
 };
 
-/// \throws std::invalid_argument when a wish names no such topic or no such parameter.
+/// \throws std::invalid_argument when a wish names no such topic or no such parameter, or wishes
+/// contradict each other.
 Diagnosis diagnose(const Observation& observation, const DoctorWishes& wishes);
 
 /// For people.

@@ -39,9 +39,10 @@ struct DoctorWishes {
 
 /// The topics of a sensor: a depth image with its camera_info, or points.
 struct ScanTopics {
-  std::string name;                      ///< of one of several sensors; empty: it needs none
-  std::string depth_image, camera_info;  ///< topics; empty: none
-  std::string points;                    ///< topic; empty: none
+  std::string name;         ///< of one of several sensors; empty: it needs none
+  std::string depth_image;  ///< topic; empty: none
+  std::string camera_info;  ///< topic, with messages; empty: none
+  std::string points;       ///< topic; empty: none
 
   const std::string& scans() const { return depth_image.empty() ? points : depth_image; }
 };
@@ -58,6 +59,8 @@ struct MapSetup : ScanTopics {
 
   /// All sensors, at least one.
   std::vector<ScanTopics> allSensors() const;
+  /// Several sensors, and with them the topics of the first.
+  void setSensors(const std::vector<ScanTopics>& several);
 };
 
 /// An observation on its way through the checks. Each takes the setup as those before it left it,

@@ -58,9 +58,9 @@ void checkRunningMap(Examination* e) {
   if (!setup.sensors.empty()) {
     checkSensorInputs(e);
   } else {
-    checkInput("depth images", "sensor_msgs/Image", setup.depth_image, "depth_image", e);
-    checkInput("camera_info", "sensor_msgs/CameraInfo", setup.camera_info, "camera_info", e);
-    checkInput("clouds", "sensor_msgs/PointCloud2", setup.points, "points", e);
+    checkInput("depth images", kImageType, setup.depth_image, "depth_image", e);
+    checkInput("camera_info", kCameraInfoType, setup.camera_info, "camera_info", e);
+    checkInput("clouds", kCloudType, setup.points, "points", e);
   }
   constexpr const char* kArguments[3] = {"odom", "pose", "transform"};
   if (setup.node.pose_source != PoseSource::kTf) {

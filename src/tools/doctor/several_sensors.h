@@ -10,7 +10,7 @@ namespace fiimap {
 /// choose_sensors.cpp: several sensors that the user named by their topics, or a map that runs by
 /// its parameter `sensors`.
 /// \return false where neither did.
-/// \throws std::invalid_argument when a wish names no such topic.
+/// \throws std::invalid_argument when the user named more topics than there are sensors.
 bool chooseNamedSensors(Examination* examination);
 /// choose_sensors.cpp: every device beside the one that was chosen first.
 /// \return false where there is only that one; nothing has changed then.
