@@ -63,6 +63,7 @@ TEST(NamedSensorsTest, SayThatAnImageIsSilent) {
 TEST(NamedSensorsTest, TakeTheCameraInfoInThePlaceOfTheImage) {
   TwoCameras cameras;
   cameras.left.info_topic = "/driver/info";
+  cameras.left.info = TwoCameras::setFrame<sensor_msgs::CameraInfo>("driver");
   DoctorWishes wishes = bothImages();
   wishes.camera_infos = {kAheadInfo, "/driver/info"};
   expectContains(launchLine(cameras.diagnosis(wishes)), "left/depth/camera_info=/driver/info");

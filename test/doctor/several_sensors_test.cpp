@@ -37,6 +37,18 @@ TEST(SeveralSensorsTest, MakeOneMapOfTwoCameras) {
   EXPECT_EQ(diagnosis.topics.size(), 5u);
 }
 
+TEST(SeveralSensorsTest, GiveALidarOnlyTheRangesThatAreOpen) {
+  DoctorWishes wishes;
+  wishes.parameters = {{"min_ray_length", "1"}};
+  expectContains(launchLine(withCameraAndLidar().diagnosis(wishes)),
+                 "velodyne: {max_ray_length: 20, sensor: points}");
+  wishes.parameters = {{"sensors", "camera velodyne"},
+                       {"velodyne/sensor", "points"},
+                       {"velodyne/min_ray_length", "1"}};
+  expectContains(launchLine(withCameraAndLidar().diagnosis(wishes)),
+                 "velodyne: {max_ray_length: 20, min_ray_length: 1, sensor: points}");
+}
+
 TEST(SeveralSensorsTest, TellHowManyScansOfEach) {
   const Observation seen = withCameraAndLidar().observation();
   const Diagnosis diagnosis = diagnose(seen, {});
@@ -89,24 +101,6 @@ TEST(SeveralSensorsTest, SayWhatIsNoSensorOfItsOwn) {
                 {"Not taken for sensors",
                  "/thermal/image (seems to be of the same device as /left/depth/image_rect_raw)",
                  "/registered (is in the frame of the poses, 'world')"});
-}
-
-TEST(SeveralSensorsTest, LeaveOutASensorThatCannotWork) {
-  TwoCameras cameras;
-  cameras.left.info = [](sensor_msgs::CameraInfo* info) {
-    info->header.frame_id = "left_optical";
-    info->width = 1280;
-    return kComes;
-  };
-  const Diagnosis diagnosis = cameras.diagnosis();
-  expectFinding(diagnosis, Severity::kError, {"left: The camera_info", "does not fit"});
-  expectFinding(diagnosis, Severity::kNote, {"launch line leaves out left until"});
-  expectContains(launchLine(diagnosis), "sensors: [camera]}");
-  EXPECT_EQ(launchLine(diagnosis).find("left"), std::string::npos);
-  EXPECT_GT(diagnosis.trial.usable, 25u);
-
-  cameras.vehicle.info = cameras.left.info;
-  EXPECT_TRUE(cameras.diagnosis().launch_words.empty());
 }
 
 TEST(SeveralSensorsTest, GiveEachItsOwnPlace) {

@@ -22,7 +22,10 @@ void checkMapFrame(Examination* examination);
 /// time_checks.cpp: stamps of poses that are missing, their rate, gaps.
 void checkPoseRate(Examination* examination);
 
-/// check_sensors.cpp: what follows up to checkClocks, for every sensor.
+/// time_checks.cpp: use_sim_time and /clock.
+void checkSimulatedTime(Examination* examination);
+
+/// check_sensors.cpp: what follows up to checkTrial, for every sensor; tries all of them out.
 void checkSensors(Examination* examination);
 /// choose_scans.cpp: whether a message came.
 void checkScansCome(Examination* examination);
@@ -46,9 +49,8 @@ void checkMount(Examination* examination);
 void checkScanRate(Examination* examination);
 /// time_checks.cpp: whether scans and poses are stamped by one clock.
 void checkClocks(Examination* examination);
-/// time_checks.cpp: use_sim_time and /clock.
-void checkSimulatedTime(Examination* examination);
-
+/// trial_checks.cpp: scans that the map would drop.
+void checkTrial(const Trial& trial, Examination* examination);
 /// map_checks.cpp: what a mapping node that runs listens to and says.
 void checkRunningMap(Examination* examination);
 

@@ -5,6 +5,7 @@
 
 #include "doctor/frame_graph.h"
 #include "doctor/observation.h"
+#include "doctor/trial.h"
 #include "fiimap/mapper_config.h"
 #include "fiimap/parameters.h"
 #include "fiimap/ros/node_config.h"
@@ -17,8 +18,12 @@ enum class Severity {
   kError,    ///< there would be no map, or a wrong one
 };
 
-/// Whether the launch line takes care of an error.
-enum class Repair { kNone, kInLaunchLine };
+/// Whether the launch line takes care of an error. Those before ask for more than those after.
+enum class Repair {
+  kNone,
+  kInLaunchLine,  ///< by what it sets
+  kLeftOut,       ///< by doing without the sensor
+};
 
 struct Finding {
   Severity severity = Severity::kNote;
@@ -50,9 +55,10 @@ struct ScanTopics {
 /// The inputs that were found and the parameters that fit them. Of several sensors, the topics are
 /// those of the one that is looked at, or the first.
 struct MapSetup : ScanTopics {
-  std::vector<ScanTopics> sensors;  ///< in the order of node.sensors; empty: one without a name
-  std::string poses;                ///< topic; empty: none, or TF
-  bool has_poses = false;           ///< a topic, or TF
+  std::vector<ScanTopics> sensors;    ///< in the order of node.sensors; empty: one without a name
+  std::vector<std::string> left_out;  ///< names of sensors that the launch line does without
+  std::string poses;                  ///< topic; empty: none, or TF
+  bool has_poses = false;             ///< a topic, or TF
   MapperConfig mapper;
   NodeConfig node;
   ParameterMap changes;  ///< parameters beside topics, sensor, pose_source and map_frame to be set
@@ -75,6 +81,7 @@ struct Examination {
   MapSetup setup;
   ParameterMap given;  ///< parameters of the user or of the node that runs: not open
   std::vector<Finding> findings;
+  std::vector<Trial> trials;  ///< of each of setup.allSensors(); empty until checkSensors()
 
   bool isGiven(const std::string& parameter) const { return given.count(parameter) != 0; }
   void note(const std::string& what, const std::string& remedy = "");
