@@ -5,8 +5,6 @@
 #include "doctor/scan_candidates.h"
 #include "doctor/several_sensors.h"
 #include "doctor/topic_choice.h"
-#include "fiimap/ros/frame_id.h"
-#include "fiimap/ros/message_conversions.h"
 
 namespace fiimap {
 namespace {

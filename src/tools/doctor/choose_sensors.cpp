@@ -3,7 +3,6 @@
 
 #include "doctor/scan_candidates.h"
 #include "doctor/several_sensors.h"
-#include "doctor/topic_choice.h"
 
 namespace fiimap {
 namespace {
