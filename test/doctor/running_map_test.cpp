@@ -30,9 +30,12 @@ struct MapOfTwo {
                    {"top", {"/os/points", ""}}};
   }
 
-  Diagnosis diagnosis() {
+  Diagnosis diagnosis() { return diagnose(observation(), {}); }
+  std::string text() { return toText(diagnosis(), observation()); }
+
+  Observation observation() {
     vehicle.more = [this](Observation* seen) { seen->map = map; };
-    return vehicle.diagnosis();
+    return vehicle.observation();
   }
 };
 
@@ -69,13 +72,35 @@ TEST(RunningMapTest, FindsTheTopicThatASensorDoesNotHear) {
                  "front/depth/camera_info=/d435/depth/camera_info top/points=/os/points");
 }
 
-TEST(RunningMapTest, FindsASensorThatIsSilent) {
+TEST(RunningMapTest, GoesOnWithoutASensorThatIsSilent) {
   MapOfTwo seen;
   seen.vehicle.cloud = [](auto*) { return !kComes; };
+  seen.map.errors = {"top: no scans received on /os/points"};
   const Diagnosis diagnosis = seen.diagnosis();
   expectFinding(diagnosis, Severity::kError,
                 {"top: No message came on /os/points", "nobody publishes it"});
+  EXPECT_EQ(launchLine(diagnosis), "");
+  expectContains(seen.text(), "The map that runs need not end: it goes on without top until");
+  EXPECT_EQ(seen.text().find("rosnode kill"), std::string::npos);
+  EXPECT_EQ(seen.text().find("launch line leaves out"), std::string::npos);
+}
+
+TEST(RunningMapTest, EndsForAnotherSetup) {
+  MapOfTwo seen;
+  seen.vehicle.cloud = [](auto*) { return !kComes; };
+  seen.map.parameters["map_frame"] = "map";
+  const Diagnosis diagnosis = seen.diagnosis();
   expectContains(launchLine(diagnosis), "sensors: [front]");
+  expectFinding(diagnosis, Severity::kNote, {"launch line leaves out top until"});
+  expectContains(seen.text(), "rosnode kill /fiimap");
+}
+
+TEST(RunningMapTest, HasNoLineWhereNoSensorWorks) {
+  MapOfTwo seen;
+  seen.vehicle.cloud = [](auto*) { return !kComes; };
+  seen.vehicle.info = [](auto*) { return !kComes; };
+  EXPECT_EQ(launchLine(seen.diagnosis()), "");
+  expectContains(seen.text(), "No launch line would lead to a map yet");
 }
 
 TEST(RunningMapTest, KnowsTheNamesOfTopicsWithoutDiagnostics) {
@@ -105,9 +130,7 @@ TEST(RunningMapTest, KeepsItsParameters) {
   EXPECT_EQ(diagnosis.kept,
             (std::vector<std::string>{"max_depth", "sensors", "top/extrinsic_translation",
                                       "top/extrinsics", "top/max_ray_length", "top/sensor"}));
-  seen.vehicle.more = [&seen](Observation* all) { all->map = seen.map; };
-  const Observation all = seen.vehicle.observation();
-  expectContains(toText(diagnosis, all), "The line keeps what /fiimap has set: max_depth, sensors");
+  expectContains(seen.text(), "The line keeps what /fiimap has set: max_depth, sensors");
 }
 
 TEST(RunningMapTest, KeepsTheParametersOfOneSensor) {

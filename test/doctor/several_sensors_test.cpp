@@ -1,59 +1,10 @@
 // Several sensors: which there are, and the line for one map of them all.
 
 #include "doctor/mount.h"
-#include "seen_vehicle.h"
+#include "two_sensors.h"
 
 namespace fiimap {
 namespace {
-
-const Eigen::Quaterniond kToTheLeft(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
-
-/// Adds the scans of another vehicle, as if they were of this one.
-void addScans(const Observation& other, Observation* seen) {
-  seen->types.insert(other.types.begin(), other.types.end());
-  seen->images.insert(other.images.begin(), other.images.end());
-  seen->depth.insert(other.depth.begin(), other.depth.end());
-  seen->infos.insert(other.infos.begin(), other.infos.end());
-  seen->clouds.insert(other.clouds.begin(), other.clouds.end());
-  seen->points.insert(other.points.begin(), other.points.end());
-}
-
-/// A camera ahead, and one of another name and frame.
-struct TwoCameras {
-  SeenVehicle vehicle, left;
-
-  TwoCameras() {
-    left.image_topic = "/left/depth/image_rect_raw";
-    left.info_topic = "/left/depth/camera_info";
-    left.image = setFrame<sensor_msgs::Image>("left_optical");
-    left.info = setFrame<sensor_msgs::CameraInfo>("left_optical");
-    vehicle.static_transforms.push_back(
-        transformOf("base_link", "left_optical", kToTheLeft * opticalRotation(), {0.0, 0.1, 0.0}));
-  }
-
-  template <typename Message>
-  static std::function<bool(Message*)> setFrame(const std::string& frame) {
-    return [frame](Message* message) {
-      message->header.frame_id = frame;
-      return kComes;
-    };
-  }
-
-  Diagnosis diagnosis(const DoctorWishes& wishes = {}) {
-    const Observation of_left = left.observation();
-    vehicle.more = [&of_left](Observation* seen) { addScans(of_left, seen); };
-    return vehicle.diagnosis(wishes);
-  }
-};
-
-SeenVehicle withCameraAndLidar() {
-  SeenVehicle vehicle;
-  vehicle.cloud = [](auto*) { return kComes; };
-  vehicle.cloud_topic = "/velodyne_points";
-  vehicle.static_transforms.push_back(
-      transformOf("base_link", "lidar", Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.3}));
-  return vehicle;
-}
 
 TEST(SeveralSensorsTest, MakeOneMapOfACameraAndALidar) {
   const Diagnosis diagnosis = withCameraAndLidar().diagnosis();
@@ -84,6 +35,18 @@ TEST(SeveralSensorsTest, MakeOneMapOfTwoCameras) {
   ASSERT_EQ(diagnosis.trials.size(), 2u);
   EXPECT_GT(diagnosis.trials[1].usable, 25u);
   EXPECT_EQ(diagnosis.topics.size(), 5u);
+}
+
+TEST(SeveralSensorsTest, GiveALidarOnlyTheRangesThatAreOpen) {
+  DoctorWishes wishes;
+  wishes.parameters = {{"min_ray_length", "1"}};
+  expectContains(launchLine(withCameraAndLidar().diagnosis(wishes)),
+                 "velodyne: {max_ray_length: 20, sensor: points}");
+  wishes.parameters = {{"sensors", "camera velodyne"},
+                       {"velodyne/sensor", "points"},
+                       {"velodyne/min_ray_length", "1"}};
+  expectContains(launchLine(withCameraAndLidar().diagnosis(wishes)),
+                 "velodyne: {max_ray_length: 20, min_ray_length: 1, sensor: points}");
 }
 
 TEST(SeveralSensorsTest, TellHowManyScansOfEach) {
@@ -138,24 +101,6 @@ TEST(SeveralSensorsTest, SayWhatIsNoSensorOfItsOwn) {
                 {"Not taken for sensors",
                  "/thermal/image (seems to be of the same device as /left/depth/image_rect_raw)",
                  "/registered (is in the frame of the poses, 'world')"});
-}
-
-TEST(SeveralSensorsTest, LeaveOutASensorThatCannotWork) {
-  TwoCameras cameras;
-  cameras.left.info = [](sensor_msgs::CameraInfo* info) {
-    info->header.frame_id = "left_optical";
-    info->width = 1280;
-    return kComes;
-  };
-  const Diagnosis diagnosis = cameras.diagnosis();
-  expectFinding(diagnosis, Severity::kError, {"left: The camera_info", "does not fit"});
-  expectFinding(diagnosis, Severity::kNote, {"launch line leaves out left until"});
-  expectContains(launchLine(diagnosis), "sensors: [camera]}");
-  EXPECT_EQ(launchLine(diagnosis).find("left"), std::string::npos);
-  EXPECT_GT(diagnosis.trial.usable, 25u);
-
-  cameras.vehicle.info = cameras.left.info;
-  EXPECT_TRUE(cameras.diagnosis().launch_words.empty());
 }
 
 TEST(SeveralSensorsTest, GiveEachItsOwnPlace) {

@@ -5,16 +5,11 @@
 #include "doctor/scan_candidates.h"
 #include "doctor/several_sensors.h"
 #include "doctor/topic_choice.h"
-#include "fiimap/ros/frame_id.h"
-#include "fiimap/ros/message_conversions.h"
 
 namespace fiimap {
 namespace {
 
-const std::string kImageType = "sensor_msgs/Image";
 const std::string kCompressedType = "sensor_msgs/CompressedImage";
-const std::string kInfoType = "sensor_msgs/CameraInfo";
-const std::string kCloudType = "sensor_msgs/PointCloud2";
 
 bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
@@ -67,36 +62,10 @@ std::string firstWish(const std::vector<std::string>& wishes) {
   return wishes.empty() ? "" : wishes.front();
 }
 
-bool isOtherImage(const std::string& image, const Examination& e) {
-  return e.seen.images.count(image) != 0 && e.seen.depth.count(image) == 0;
-}
-
-void reportOtherImage(const std::string& image, const std::vector<std::string>& images,
-                      Examination* e) {
-  e->error("The image " + image + " has the encoding '" +
-               e->seen.images.at(image).front().message->encoding + "': it is no depth image.",
-           "Use one of encoding 16UC1, mono16 or 32FC1" +
-               (images.empty() ? "." : ": " + listOf(images) + "."));
-}
-
 /// The topic that the user, or the node that runs, wants.
-std::string wanted(const std::string& wish, const std::string& type, const char* option,
+std::string wanted(const std::string& wish, const std::string& type,
                    const std::vector<std::string>& candidates, const Examination& e) {
-  if (wish.empty()) return listenedTo(type, e.seen, candidates);
-  requireType(wish, {type}, option, e.seen);
-  return wish;
-}
-
-void chooseCameraInfo(Examination* e) {
-  const std::string& image = e->setup.depth_image;
-  const std::string beside = infoBeside(image);
-  const std::string wish =
-      wanted(firstWish(e->wishes.camera_infos), kInfoType, "--camera-info", {beside}, *e);
-  e->setup.camera_info = e->seen.infos.count(wish) != 0 ? wish : cameraInfoOf(image, *e);
-  const std::string& chosen = e->setup.camera_info;
-  if (chosen.empty() || chosen == wish || chosen == beside) return;
-  e->note("The camera_info of " + image + " is not beside it, but on " + chosen +
-          " there is one of the same frame.");
+  return wish.empty() ? listenedTo(type, e.seen, candidates) : wish;
 }
 
 /// Depth images or clouds: the first sensor, or the only one.
@@ -108,14 +77,10 @@ void chooseFirst(Examination* e) {
   const bool points_named = !cloud_wish.empty();
   std::string image = points_named || (map_takes_points && image_wish.empty())
                           ? ""
-                          : wanted(image_wish, kImageType, "--depth-image", images, *e);
-  std::string cloud = wanted(cloud_wish, kCloudType, "--points", clouds, *e);
-  if (!image.empty() && isOtherImage(image, *e)) {
-    reportOtherImage(image, images, e);
-    return;
-  }
+                          : wanted(image_wish, kImageType, images, *e);
+  std::string cloud = wanted(cloud_wish, kCloudType, clouds, *e);
   // What a map listens to in vain is said with the map.
-  if (e->seen.depth.count(image) == 0 && image_wish.empty()) image.clear();
+  if (e->seen.images.count(image) == 0 && image_wish.empty()) image.clear();
   if (e->seen.points.count(cloud) == 0 && cloud_wish.empty()) cloud.clear();
   const bool images_are_likely =
       !images.empty() && (clouds.empty() || isLikelyDepth(images.front(), *e));
@@ -144,10 +109,9 @@ void noteOthersOfOne(Examination* e) {
 }
 
 void useOne(Examination* e) {
-  noteOthersOfOne(e);
+  if (!isOtherImage(e->setup.depth_image, *e)) noteOthersOfOne(e);
   const bool has_depth = !e->setup.depth_image.empty();
   e->setup.node.sensor = has_depth ? SensorKind::kDepth : SensorKind::kPoints;
-  if (has_depth && e->hasScans()) chooseCameraInfo(e);
 }
 
 /// Whether the user, or the map that runs, has one sensor.
@@ -155,17 +119,38 @@ bool isOneWanted(const Examination& e) {
   return e.seen.map || e.wishes.depth_images.size() + e.wishes.points.size() == 1;
 }
 
+void requireTopics(const std::vector<std::string>& topics, const std::string& type,
+                   const std::string& option, const Observation& seen) {
+  for (const std::string& topic : topics) {
+    requireType(topic, {type}, option, seen);
+    if (std::count(topics.begin(), topics.end(), topic) == 1) continue;
+    throw std::invalid_argument(option + ' ' + topic + " is named twice");
+  }
+}
+
+/// \throws std::invalid_argument unless the scans that the user named can be those of one map.
+void requireNamedScans(const Examination& e) {
+  const DoctorWishes& wishes = e.wishes;
+  requireTopics(wishes.depth_images, kImageType, "--depth-image", e.seen);
+  requireTopics(wishes.points, kCloudType, "--points", e.seen);
+  const std::size_t count = wishes.depth_images.size() + wishes.points.size();
+  if (count <= NodeConfig::kMaxSensors) return;
+  throw std::invalid_argument("--depth-image and --points name " + std::to_string(count) +
+                              " sensors; a map has at most " +
+                              std::to_string(NodeConfig::kMaxSensors));
+}
+
 }  // namespace
 
 void chooseScans(Examination* e) {
+  requireNamedScans(*e);
   if (chooseNamedSensors(e)) return;
-  const std::size_t findings = e->findings.size();
   chooseFirst(e);
   if (e->setup.scans().empty()) {
-    if (e->findings.size() == findings) reportNoScans(e);
-    return;
+    reportNoScans(e);
+  } else if (isOneWanted(*e) || !chooseAllSensors(e)) {
+    useOne(e);
   }
-  if (isOneWanted(*e) || !chooseAllSensors(e)) useOne(e);
 }
 
 void checkScansCome(Examination* e) {

@@ -1,23 +1,15 @@
 #include <algorithm>
+#include <stdexcept>
 
 #include "doctor/scan_candidates.h"
 #include "doctor/several_sensors.h"
-#include "doctor/topic_choice.h"
 
 namespace fiimap {
 namespace {
 
-const std::string kDepthType = "sensor_msgs/Image";
-const std::string kPointsType = "sensor_msgs/PointCloud2";
-
-ScanTopics sensorOn(const std::string& topic, const Examination& e) {
+ScanTopics sensorOn(const std::string& topic, SensorKind kind) {
   ScanTopics sensor;
-  if (e.seen.depth.count(topic) != 0) {
-    sensor.depth_image = topic;
-    sensor.camera_info = cameraInfoOf(topic, e);
-  } else {
-    sensor.points = topic;
-  }
+  (kind == SensorKind::kDepth ? sensor.depth_image : sensor.points) = topic;
   return sensor;
 }
 
@@ -41,11 +33,8 @@ void shareSetup(const std::vector<ScanTopics>& sensors, MapSetup* setup) {
 }
 
 void useSensors(const std::vector<ScanTopics>& sensors, Examination* e) {
-  MapSetup& setup = e->setup;
-  static_cast<ScanTopics&>(setup) = sensors.front();
-  setup.name.clear();
-  setup.sensors = sensors;
-  if (setup.node.sensors.empty()) shareSetup(sensors, &setup);
+  e->setup.setSensors(sensors);
+  if (e->setup.node.sensors.empty()) shareSetup(sensors, &e->setup);
   std::vector<std::string> names;
   for (const ScanTopics& sensor : sensors) names.push_back(quotedName(sensor));
   e->note(
@@ -57,23 +46,13 @@ void useSensors(const std::vector<ScanTopics>& sensors, Examination* e) {
 /// Those whose topics the user named.
 std::vector<ScanTopics> sensorsOfWishes(const Examination& e) {
   std::vector<ScanTopics> sensors;
-  const auto add = [&](const std::string& topic, const std::string& type, const char* option) {
-    requireType(topic, {type}, option, e.seen);
-    ScanTopics sensor = sensorOn(topic, e);
-    if (type == kDepthType) {
-      sensor.depth_image = topic;
-      sensor.points.clear();
-      const std::size_t index = sensors.size();
-      if (index < e.wishes.camera_infos.size()) {
-        sensor.camera_info = e.wishes.camera_infos[index];
-        requireType(sensor.camera_info, {"sensor_msgs/CameraInfo"}, "--camera-info", e.seen);
-      }
-    }
+  const auto add = [&](const std::string& topic, SensorKind kind) {
+    ScanTopics sensor = sensorOn(topic, kind);
     sensor.name = nameForSensor(sensor, sensors, e.seen);
     sensors.push_back(sensor);
   };
-  for (const std::string& topic : e.wishes.depth_images) add(topic, kDepthType, "--depth-image");
-  for (const std::string& topic : e.wishes.points) add(topic, kPointsType, "--points");
+  for (const std::string& topic : e.wishes.depth_images) add(topic, SensorKind::kDepth);
+  for (const std::string& topic : e.wishes.points) add(topic, SensorKind::kPoints);
   return sensors;
 }
 
@@ -84,31 +63,51 @@ class TopicAssignment {
     for (const SensorConfig& config : configs_) {
       sensors_.emplace_back();
       sensors_.back().name = config.name;
-      listened_.push_back(listenedBy(config, e.seen));
+      listened_.push_back(listenedBy(config, e.seen).scans);
     }
   }
 
+  /// \throws std::invalid_argument when the user named more topics than there are sensors.
   std::vector<ScanTopics> assign() {
-    each([this](std::size_t i, const std::string& topic) { return topic == listened_[i].scans; });
+    requireRoom(SensorKind::kDepth, "--depth-image");
+    requireRoom(SensorKind::kPoints, "--points");
+    each([this](std::size_t i, const std::string& topic) { return topic == listened_[i]; });
     each([this](std::size_t i, const std::string& topic) {
       return topic.find(configs_[i].name) != std::string::npos;
     });
-    // That of another device; all that are left may be others' where a map runs.
-    each([this](std::size_t, const std::string& topic) {
-      return reasonToLeaveOut(topic, withTopics(), e_).empty();
+    // One that the user named, or of another device; all that are left may be others' where a map
+    // runs.
+    each([this](std::size_t i, const std::string& topic) {
+      return !named(configs_[i].sensor).empty() ||
+             reasonToLeaveOut(topic, withTopics(), e_).empty();
     });
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
-      if (sensors_[i].scans().empty()) setScans(i, listened_[i].scans);
+      if (sensors_[i].scans().empty()) setScans(i, listened_[i]);
     }
     return sensors_;
   }
 
  private:
+  const std::vector<std::string>& named(SensorKind kind) const {
+    return kind == SensorKind::kDepth ? e_.wishes.depth_images : e_.wishes.points;
+  }
+
+  void requireRoom(SensorKind kind, const std::string& option) const {
+    std::vector<std::string> takers;
+    for (const SensorConfig& config : configs_) {
+      if (config.sensor == kind) takers.push_back(config.name);
+    }
+    if (named(kind).size() <= takers.size()) return;
+    throw std::invalid_argument(
+        option + " names " + listOf(named(kind)) +
+        ", more than the sensors that take it: " + (takers.empty() ? "none" : listOf(takers)) +
+        "; choose others with --set sensors=... and --set NAME/sensor=...");
+  }
+
   std::vector<std::string> candidatesFor(std::size_t i) const {
-    const bool has_depth = configs_[i].sensor == SensorKind::kDepth;
-    const std::vector<std::string>& wishes = has_depth ? e_.wishes.depth_images : e_.wishes.points;
-    if (!wishes.empty()) return wishes;
-    return has_depth ? depthImages(e_) : cloudTopics(e_);
+    const SensorKind kind = configs_[i].sensor;
+    if (!named(kind).empty()) return named(kind);
+    return kind == SensorKind::kDepth ? depthImages(e_) : cloudTopics(e_);
   }
 
   template <typename Fits>
@@ -124,14 +123,9 @@ class TopicAssignment {
   }
 
   void setScans(std::size_t i, const std::string& topic) {
-    ScanTopics& sensor = sensors_[i];
-    if (configs_[i].sensor == SensorKind::kPoints) {
-      sensor.points = topic;
-      return;
-    }
-    sensor.depth_image = topic;
-    const std::string& listened = listened_[i].camera_info;
-    sensor.camera_info = e_.seen.infos.count(listened) != 0 ? listened : cameraInfoOf(topic, e_);
+    const std::string name = sensors_[i].name;
+    sensors_[i] = sensorOn(topic, configs_[i].sensor);
+    sensors_[i].name = name;
   }
 
   bool isTaken(const std::string& topic) const {
@@ -148,7 +142,7 @@ class TopicAssignment {
 
   const Examination& e_;
   const std::vector<SensorConfig> configs_;
-  std::vector<ListenedTopics> listened_;
+  std::vector<std::string> listened_;  // scans
   std::vector<ScanTopics> sensors_;
 };
 
@@ -165,22 +159,28 @@ bool chooseNamedSensors(Examination* e) {
 }
 
 bool chooseAllSensors(Examination* e) {
-  std::vector<ScanTopics> sensors = {sensorOn(e->setup.scans(), *e)};
+  std::vector<ScanTopics> sensors = {e->setup};
   sensors.front().name = nameForSensor(sensors.front(), {}, e->seen);
   std::vector<std::string> left_out;
-  for (const auto& topics : {depthImages(*e), cloudTopics(*e)}) {
+  const auto add = [&](const std::vector<std::string>& topics, SensorKind kind) {
     for (const std::string& topic : topics) {
       if (topic == sensors.front().scans()) continue;
-      const std::string reason = reasonToLeaveOut(topic, sensors, *e);
-      if (!reason.empty() || sensors.size() == NodeConfig::kMaxSensors) {
-        left_out.push_back(topic + (reason.empty() ? "" : " (" + reason + ')'));
+      std::string reason = reasonToLeaveOut(topic, sensors, *e);
+      if (reason.empty() && sensors.size() == NodeConfig::kMaxSensors) {
+        reason =
+            "is beyond the " + std::to_string(NodeConfig::kMaxSensors) + " that a map can have";
+      }
+      if (!reason.empty()) {
+        left_out.push_back(topic + " (" + reason + ')');
         continue;
       }
-      ScanTopics sensor = sensorOn(topic, *e);
+      ScanTopics sensor = sensorOn(topic, kind);
       sensor.name = nameForSensor(sensor, sensors, e->seen);
       sensors.push_back(sensor);
     }
-  }
+  };
+  add(depthImages(*e), SensorKind::kDepth);
+  add(cloudTopics(*e), SensorKind::kPoints);
   if (sensors.size() == 1) return false;
   useSensors(sensors, e);
   if (!left_out.empty()) e->note("Not taken for sensors: " + listOf(left_out) + ".");

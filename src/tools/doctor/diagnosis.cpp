@@ -11,41 +11,6 @@
 namespace fiimap {
 namespace {
 
-constexpr double kManyLost = 0.1;  // of the scans
-
-/// What the checks did not foresee, the node's own synchronisation shows.
-/// \param name of the sensor, before sentences about it; empty where there is only one.
-void judge(const Trial& trial, const std::string& name, Examination* e) {
-  const std::string about = name.empty() ? "" : name + ": ";
-  for (const std::string& warning : trial.warnings) {
-    e->warn("The map would say: " + warning + ".", "");
-  }
-  const std::size_t decided = trial.decided();
-  if (decided == 0) {
-    if (trial.scans > 0 && e->setup.has_poses) {
-      e->error(about + "Of " + std::to_string(trial.scans) +
-                   " scans none found a pose: each still waits "
-                   "for one of its time.",
-               "Look for longer with --seconds.");
-    }
-    return;
-  }
-  const std::size_t lost = decided - trial.usable;
-  const std::string what = std::to_string(lost) + " of " + std::to_string(decided) +
-                           " scans would be dropped, the last for " + trial.last_drop.detail;
-  const std::string remedy = remedyFor(trial.last_drop.reason) + ".";
-  if (trial.usable == 0) {
-    e->error(about + "No scan would go into the map: " + what + ".", remedy);
-  } else if (static_cast<double>(lost) > kManyLost * static_cast<double>(decided)) {
-    e->warn(about + what + ".", remedy);
-  }
-}
-
-void judgeAll(const std::vector<Trial>& trials, Examination* e) {
-  const std::vector<ScanTopics> sensors = e->setup.allSensors();
-  for (std::size_t i = 0; i < sensors.size(); ++i) judge(trials[i], sensors[i].name, e);
-}
-
 /// Of what the map would get.
 std::vector<TopicHealth> topicTiming(const Examination& e) {
   std::vector<TopicHealth> topics;
@@ -118,8 +83,13 @@ std::string adviceText(const Diagnosis& diagnosis, const Observation& seen) {
   if (seen.map && diagnosis.count(Severity::kError) == 0) {
     return "The map that runs has what it needs.\n";
   }
-  if (diagnosis.launch_words.empty()) {
+  if (isBlocked(diagnosis.findings)) {
     return "No launch line would lead to a map yet: set right what is WRONG, and ask again.\n";
+  }
+  if (diagnosis.launch_words.empty()) {
+    return wrapped("The map that runs need not end: it goes on without " +
+                       listOf(diagnosis.setup.left_out) + " until what is WRONG is set right.",
+                   "", "");
   }
   std::string text = "Launch line (" + trialText(diagnosis) + "):\n\n";
   if (seen.live() && seen.clock_messages > 0 && !seen.use_sim_time) {
@@ -134,6 +104,24 @@ std::string adviceText(const Diagnosis& diagnosis, const Observation& seen) {
                         "", "");
 }
 
+/// Whether there is a setup to start that no map has yet. A map that runs goes on when all that
+/// is WRONG is with sensors that it can do without.
+bool needsLaunchLine(const Examination& e) {
+  if (isBlocked(e.findings)) return false;
+  return !e.seen.map ||
+         std::any_of(e.findings.begin(), e.findings.end(), [](const Finding& finding) {
+           return finding.severity == Severity::kError && finding.repair == Repair::kInLaunchLine;
+         });
+}
+
+void writeLaunchLine(Examination* e, Diagnosis* diagnosis) {
+  diagnosis->launch_words = launchWords(e->seen, e->setup);
+  diagnosis->kept = keptParameters(e->seen, e->setup);
+  if (e->setup.left_out.empty()) return;
+  e->note("The launch line leaves out " + listOf(e->setup.left_out) +
+          " until what is WRONG there is set right.");
+}
+
 }  // namespace
 
 std::size_t Diagnosis::count(Severity severity) const {
@@ -145,22 +133,24 @@ std::size_t Diagnosis::count(Severity severity) const {
 Diagnosis diagnose(const Observation& observation, const DoctorWishes& wishes) {
   Examination e(observation, wishes);
   chooseScans(&e);
+  chooseCameraInfos(&e);
   choosePoses(&e);
   checkPoseValues(&e);
   checkMapFrame(&e);
   checkPoseRate(&e);
-  checkSensors(&e);
   checkSimulatedTime(&e);
+  checkSensors(&e);
   checkRunningMap(&e);
 
   Diagnosis diagnosis;
-  diagnosis.trials = tryOut(observation, e.setup);
-  diagnosis.trial = sumOf(diagnosis.trials);
-  if (!isBlocked(e.findings)) judgeAll(diagnosis.trials, &e);
+  diagnosis.trials = e.trials;
+  diagnosis.trial = sumOf(e.trials);
   if (!isBlocked(e.findings)) {
-    diagnosis.launch_words = launchWords(observation, e.setup);
-    diagnosis.kept = keptParameters(observation, e.setup);
+    for (const std::string& warning : diagnosis.trial.warnings) {
+      e.warn("The map would say: " + warning + ".", "");
+    }
   }
+  if (needsLaunchLine(e)) writeLaunchLine(&e, &diagnosis);
   diagnosis.topics = topicTiming(e);
   diagnosis.setup = e.setup;
   diagnosis.findings = e.findings;

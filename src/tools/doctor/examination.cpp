@@ -32,6 +32,12 @@ std::vector<ScanTopics> MapSetup::allSensors() const {
   return sensors.empty() ? std::vector<ScanTopics>{*this} : sensors;
 }
 
+void MapSetup::setSensors(const std::vector<ScanTopics>& several) {
+  sensors = several;
+  static_cast<ScanTopics&>(*this) = several.front();
+  name.clear();
+}
+
 void Examination::note(const std::string& what, const std::string& remedy) {
   findings.push_back({Severity::kNote, what, remedy});
 }

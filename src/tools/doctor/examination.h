@@ -5,6 +5,7 @@
 
 #include "doctor/frame_graph.h"
 #include "doctor/observation.h"
+#include "doctor/trial.h"
 #include "fiimap/mapper_config.h"
 #include "fiimap/parameters.h"
 #include "fiimap/ros/node_config.h"
@@ -17,8 +18,12 @@ enum class Severity {
   kError,    ///< there would be no map, or a wrong one
 };
 
-/// Whether the launch line takes care of an error.
-enum class Repair { kNone, kInLaunchLine };
+/// Whether the launch line takes care of an error. Those before ask for more than those after.
+enum class Repair {
+  kNone,
+  kInLaunchLine,  ///< by what it sets
+  kLeftOut,       ///< by doing without the sensor
+};
 
 struct Finding {
   Severity severity = Severity::kNote;
@@ -39,9 +44,10 @@ struct DoctorWishes {
 
 /// The topics of a sensor: a depth image with its camera_info, or points.
 struct ScanTopics {
-  std::string name;                      ///< of one of several sensors; empty: it needs none
-  std::string depth_image, camera_info;  ///< topics; empty: none
-  std::string points;                    ///< topic; empty: none
+  std::string name;         ///< of one of several sensors; empty: it needs none
+  std::string depth_image;  ///< topic; empty: none
+  std::string camera_info;  ///< topic, with messages; empty: none
+  std::string points;       ///< topic; empty: none
 
   const std::string& scans() const { return depth_image.empty() ? points : depth_image; }
 };
@@ -49,15 +55,18 @@ struct ScanTopics {
 /// The inputs that were found and the parameters that fit them. Of several sensors, the topics are
 /// those of the one that is looked at, or the first.
 struct MapSetup : ScanTopics {
-  std::vector<ScanTopics> sensors;  ///< in the order of node.sensors; empty: one without a name
-  std::string poses;                ///< topic; empty: none, or TF
-  bool has_poses = false;           ///< a topic, or TF
+  std::vector<ScanTopics> sensors;    ///< in the order of node.sensors; empty: one without a name
+  std::vector<std::string> left_out;  ///< names of sensors that the launch line does without
+  std::string poses;                  ///< topic; empty: none, or TF
+  bool has_poses = false;             ///< a topic, or TF
   MapperConfig mapper;
   NodeConfig node;
   ParameterMap changes;  ///< parameters beside topics, sensor, pose_source and map_frame to be set
 
   /// All sensors, at least one.
   std::vector<ScanTopics> allSensors() const;
+  /// Several sensors, and with them the topics of the first.
+  void setSensors(const std::vector<ScanTopics>& several);
 };
 
 /// An observation on its way through the checks. Each takes the setup as those before it left it,
@@ -72,6 +81,7 @@ struct Examination {
   MapSetup setup;
   ParameterMap given;  ///< parameters of the user or of the node that runs: not open
   std::vector<Finding> findings;
+  std::vector<Trial> trials;  ///< of each of setup.allSensors(); empty until checkSensors()
 
   bool isGiven(const std::string& parameter) const { return given.count(parameter) != 0; }
   void note(const std::string& what, const std::string& remedy = "");

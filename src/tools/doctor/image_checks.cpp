@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "doctor/checks.h"
+#include "doctor/scan_candidates.h"
 #include "doctor/topic_choice.h"
 #include "fiimap/ros/drop_reason.h"
 #include "fiimap/ros/frame_id.h"
@@ -24,7 +25,7 @@ std::string candidates(const Examination& e) {
     names.push_back(topic + " (" + std::to_string(info.width) + " x " +
                     std::to_string(info.height) + ", frame '" + info.header.frame_id + "')");
   }
-  for (const std::string& topic : topicsOfType("sensor_msgs/CameraInfo", e.seen)) {
+  for (const std::string& topic : topicsOfType(kCameraInfoType, e.seen)) {
     if (e.seen.infos.count(topic) == 0) names.push_back(topic + " (silent)");
   }
   return listOf(names);
@@ -69,6 +70,17 @@ void reportUnit(const DepthFigures& figures, const Quantiles& raw, double scale,
 }
 
 }  // namespace
+
+bool checkEncoding(Examination* e) {
+  const std::string& topic = e->setup.depth_image;
+  if (!isOtherImage(topic, *e)) return true;
+  const std::vector<std::string> images = depthImages(*e);
+  e->error("The image " + topic + " has the encoding '" +
+               e->seen.images.at(topic).front().message->encoding + "': it is no depth image.",
+           "Use one of encoding 16UC1, mono16 or 32FC1" +
+               (images.empty() ? "." : ": " + listOf(images) + "."));
+  return false;
+}
 
 void checkCameraInfo(Examination* e) {
   const std::string& image_topic = e->setup.depth_image;

@@ -48,6 +48,15 @@ void checkSensorInputs(Examination* e) {
   }
 }
 
+/// What a map complains of is most likely what was found before, and goes with it.
+Repair repairOfAll(const std::vector<Finding>& findings) {
+  std::vector<Repair> repairs;
+  for (const Finding& finding : findings) {
+    if (finding.severity == Severity::kError) repairs.push_back(finding.repair);
+  }
+  return repairs.empty() ? Repair::kNone : *std::min_element(repairs.begin(), repairs.end());
+}
+
 }  // namespace
 
 void checkRunningMap(Examination* e) {
@@ -58,9 +67,9 @@ void checkRunningMap(Examination* e) {
   if (!setup.sensors.empty()) {
     checkSensorInputs(e);
   } else {
-    checkInput("depth images", "sensor_msgs/Image", setup.depth_image, "depth_image", e);
-    checkInput("camera_info", "sensor_msgs/CameraInfo", setup.camera_info, "camera_info", e);
-    checkInput("clouds", "sensor_msgs/PointCloud2", setup.points, "points", e);
+    checkInput("depth images", kImageType, setup.depth_image, "depth_image", e);
+    checkInput("camera_info", kCameraInfoType, setup.camera_info, "camera_info", e);
+    checkInput("clouds", kCloudType, setup.points, "points", e);
   }
   constexpr const char* kArguments[3] = {"odom", "pose", "transform"};
   if (setup.node.pose_source != PoseSource::kTf) {
@@ -77,13 +86,9 @@ void checkRunningMap(Examination* e) {
              "Start it as the launch line does.", Repair::kInLaunchLine);
   }
   const std::string where = "It is said on /diagnostics; README.md, Questions, has more.";
-  // Most likely what was found before is the reason.
-  const bool is_explained =
-      std::any_of(e->findings.begin(), e->findings.end(),
-                  [](const Finding& finding) { return finding.severity == Severity::kError; });
+  const Repair repair = repairOfAll(e->findings);
   for (const std::string& text : map.errors) {
-    e->error("The map " + map.name + " says: " + text + ".", where,
-             is_explained ? Repair::kInLaunchLine : Repair::kNone);
+    e->error("The map " + map.name + " says: " + text + ".", where, repair);
   }
   for (const std::string& text : map.warnings) {
     e->warn("The map " + map.name + " says: " + text + ".", where);

@@ -105,6 +105,10 @@ bool isLikelyDepth(const std::string& depth_image, const Examination& e) {
   return likelihood(depth_image, e) >= kLikelyDepth;
 }
 
+bool isOtherImage(const std::string& image, const Examination& e) {
+  return e.seen.images.count(image) != 0 && e.seen.depth.count(image) == 0;
+}
+
 std::string cameraInfoOf(const std::string& depth_image, const Examination& e) {
   const std::string beside = infoBeside(depth_image);
   if (e.seen.infos.count(beside) != 0) return beside;

@@ -16,6 +16,9 @@ std::vector<std::string> cloudTopics(const Examination& examination);
 /// camera_info beside it, or "depth" in its name.
 bool isLikelyDepth(const std::string& depth_image, const Examination& examination);
 
+/// Whether the images of a topic are none of depth: of colour, for instance.
+bool isOtherImage(const std::string& image, const Examination& examination);
+
 /// Topic of the camera_info beside a depth image, or elsewhere of the same frame; empty: none.
 std::string cameraInfoOf(const std::string& depth_image, const Examination& examination);
 /// image_transport's rule: beside the image.
@@ -26,6 +29,7 @@ std::string infoBeside(const std::string& image_topic);
 bool areOfOneDevice(const std::string& a, const std::string& b, const Examination& examination);
 
 /// Why a topic, next to the sensors that are chosen, is no sensor of its own; empty: it is one.
+/// \param scans one of depthImages() or cloudTopics().
 std::string reasonToLeaveOut(const std::string& scans, const std::vector<ScanTopics>& chosen,
                              const Examination& examination);
 

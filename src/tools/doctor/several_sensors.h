@@ -10,7 +10,7 @@ namespace fiimap {
 /// choose_sensors.cpp: several sensors that the user named by their topics, or a map that runs by
 /// its parameter `sensors`.
 /// \return false where neither did.
-/// \throws std::invalid_argument when a wish names no such topic.
+/// \throws std::invalid_argument when the user named more topics than there are sensors.
 bool chooseNamedSensors(Examination* examination);
 /// choose_sensors.cpp: every device beside the one that was chosen first.
 /// \return false where there is only that one; nothing has changed then.
@@ -19,12 +19,7 @@ bool chooseAllSensors(Examination* examination);
 /// What the map that runs listens to for one of its sensors; empty topics where that is unknown.
 ListenedTopics listenedBy(const SensorConfig& sensor, const Observation& observation);
 
-/// check_sensors.cpp: looks at one of several sensors as if it were the only one.
-/// \param sensor index in setup.sensors.
-Examination examinationOf(const Examination& all, std::size_t sensor);
-/// check_sensors.cpp: takes over the setup of one, and what was changed in it.
-void takeOver(const Examination& one, std::size_t sensor, Examination* all);
-/// Whether an error was found that no launch line takes care of.
+/// check_sensors.cpp: whether an error was found that no launch line takes care of.
 bool isBlocked(const std::vector<Finding>& findings);
 
 }  // namespace fiimap

@@ -7,6 +7,10 @@
 
 namespace fiimap {
 
+constexpr char kImageType[] = "sensor_msgs/Image";
+constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+constexpr char kCloudType[] = "sensor_msgs/PointCloud2";
+
 /// All topics of a message type, in the order of their names.
 std::vector<std::string> topicsOfType(const std::string& type, const Observation& observation);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "doctor/examination.h"
 #include "fiimap/ros/scan_synchronizer.h"
 
 namespace fiimap {
@@ -98,7 +99,6 @@ std::vector<Trial> tryOut(const Observation& seen, const MapSetup& setup) {
     trials.emplace_back();
     trials.back().scans = scansSeen(seen, sensor);
   }
-  if (setup.scans().empty()) return trials;
   TrialListener listener(&trials);
   ScanSynchronizer synchronizer(setup.node, &listener);
   for (const auto& [order, action] : actionsFor(seen, setup)) action(&synchronizer);

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "doctor/examination.h"
 #include "fiimap/ros/drop_reason.h"
 
 namespace fiimap {
+
+struct MapSetup;
+struct Observation;
 
 /// What the node would do with the messages that were seen, set up as the launch line does.
 struct Trial {
