@@ -62,8 +62,9 @@ def number_cells(data):
 
 def fill(template, data, **values):
     """The page; data: what its cells show, and what is embedded."""
+    folder = str(pathlib.Path(__file__).resolve().parent)  # older versions take no Path
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True,
+        loader=jinja2.FileSystemLoader(folder), autoescape=True,
         trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     embedded = Markup(json.dumps(data).replace('<', '\\u003c'))
     return environment.get_template(template).render(
