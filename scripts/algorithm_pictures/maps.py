@@ -36,7 +36,8 @@ class View(typing.NamedTuple):
 
 def rows_of(voxels):
     """An array of voxels without repetitions, sorted by x, y, z."""
-    return numpy.unique(numpy.asarray(voxels, dtype=numpy.int64).reshape(-1, 3), axis=0)
+    rows = numpy.asarray(voxels, dtype=numpy.int64).reshape(-1, 3)
+    return numpy.unique(rows, axis=0) if len(rows) else rows  # older versions take no empty one
 
 
 def as_set(voxels):
