@@ -5,6 +5,18 @@
 #include "fiimap/voxel_line.h"
 
 namespace fiimap {
+namespace {
+
+/// Of both layers, which are alike. A sum, since a planner's questions make branches guess wrong.
+constexpr int codeOf(bool obstacle, bool known) { return (known | obstacle) + obstacle; }
+static_assert(codeOf(true, true) == static_cast<int>(Occupancy::kOccupied) &&
+              codeOf(true, false) == static_cast<int>(Inflation::kInflated) &&
+              codeOf(false, true) == static_cast<int>(Occupancy::kFree) &&
+              codeOf(false, true) == static_cast<int>(Inflation::kFree) &&
+              codeOf(false, false) == static_cast<int>(Occupancy::kUnknown) &&
+              codeOf(false, false) == static_cast<int>(Inflation::kUnknown));
+
+}  // namespace
 
 Snapshot::Snapshot(SlidingGrid* grid, const Info& info)
     : info_(info),
@@ -31,15 +43,15 @@ inline bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIn
 inline Occupancy Snapshot::measuredOccupancy(const VoxelIndex& v) const {
   const std::uint64_t* const tile = tileAt(v.x(), v.y());
   if (tile == nullptr) return Occupancy::kUnknown;
-  if (test(tile, Plane::kOccupied, v)) return Occupancy::kOccupied;
-  return test(tile, Plane::kKnown, v) ? Occupancy::kFree : Occupancy::kUnknown;
+  return static_cast<Occupancy>(
+      codeOf(test(tile, Plane::kOccupied, v), test(tile, Plane::kKnown, v)));
 }
 
 inline Inflation Snapshot::measuredInflation(const VoxelIndex& v) const {
   const std::uint64_t* const tile = tileAt(v.x(), v.y());
   if (tile == nullptr) return Inflation::kUnknown;
-  if (test(tile, Plane::kInflated, v)) return Inflation::kInflated;
-  return test(tile, Plane::kKnown, v) ? Inflation::kFree : Inflation::kUnknown;
+  return static_cast<Inflation>(
+      codeOf(test(tile, Plane::kInflated, v), test(tile, Plane::kKnown, v)));
 }
 
 Occupancy Snapshot::occupancy(const VoxelIndex& v) const {
